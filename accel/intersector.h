@@ -1,0 +1,54 @@
+/// \file  The one interface for closest-hit and any-hit queries.
+#pragma once
+
+#include "accel/geometry.h"
+
+#include <memory>
+#include <string_view>
+
+namespace plumb {
+
+enum class AccelKind : std::uint8_t { naive, sah, embree };
+
+struct BuildOptions {
+    TriangleTest triangle_test =
+        TriangleTest::watertight; ///< naive and sah; embree: watertight only
+};
+
+struct AccelStats {
+    double build_s = 0;
+    std::size_t bytes = 0;      ///< nodes, leaves and copies of vertices; not the meshes
+    std::size_t node_count = 0; ///< inner nodes and leaves; 0 where unknown
+    std::size_t leaf_count = 0;
+    std::size_t primitive_count = 0;
+    std::size_t skipped_count = 0; ///< primitives that are not traceable
+    int depth = 0;                 ///< of the deepest leaf, the root being 0
+    double sah_cost = 0;           ///< C_t = C_i = 1, relative to the root's area; 0 where unknown
+};
+
+/// Ray queries over one GeometryView, which must outlive it. Safe to call from any number of
+/// threads. Invalid rays (see is_valid) miss. Of several hits at the same t the lowest
+/// (geometry, primitive) is returned.
+class Intersector {
+  public:
+    Intersector() = default;
+    Intersector(const Intersector&) = delete;
+    Intersector& operator=(const Intersector&) = delete;
+    virtual ~Intersector() = default;
+
+    [[nodiscard]] virtual Hit closest(const Ray& ray) const = 0;
+    /// Whether any hit exists; equal to closest(ray).valid().
+    [[nodiscard]] virtual bool occluded(const Ray& ray) const = 0;
+    /// closest() of each ray; both spans have the same size.
+    virtual void closest(std::span<const Ray> rays, std::span<Hit> hits) const;
+    [[nodiscard]] virtual AccelStats stats() const = 0;
+};
+
+/// Builds an intersector. Throws std::bad_alloc where memory ends and std::runtime_error where the
+/// kind is not available or does not support the options.
+[[nodiscard]] std::unique_ptr<Intersector> make_intersector(AccelKind kind, GeometryView geometry,
+                                                            const BuildOptions& options = {});
+
+[[nodiscard]] std::string_view name_of(AccelKind kind);
+
+} // namespace plumb

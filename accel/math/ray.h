@@ -1,0 +1,43 @@
+/// \file  Rays and hits, host and device: plain values, ids instead of pointers.
+#pragma once
+
+#include "accel/math/vec.h"
+
+#include <cstdint>
+#include <limits>
+
+namespace plumb {
+
+inline constexpr float infinity = std::numeric_limits<float>::infinity();
+inline constexpr std::uint32_t invalid_id = 0xffffffffu;
+
+/// Points origin + t * direction with tmin < t <= tmax (tmin exclusive, tmax inclusive).
+/// The direction need not be a unit vector; t counts in its lengths.
+struct Ray {
+    Vec3 origin;
+    float tmin = 0;
+    Vec3 direction;
+    float tmax = infinity;
+};
+
+/// What every Intersector accepts: finite origin and direction of at most 1.8e18 a component, a
+/// direction that is not zero, 0 <= tmin <= tmax. Any other ray is a miss.
+[[nodiscard]] RT_HD inline bool is_valid(const Ray& ray) {
+    const Vec3 d = ray.direction;
+    return is_finite(ray.origin) && is_finite(d) && (d.x != 0 || d.y != 0 || d.z != 0) &&
+           ray.tmin >= 0 && ray.tmin <= ray.tmax;
+}
+
+/// Closest intersection. On a triangle (a, b, c) the point is (1-u-v) a + u b + v c; on a sphere u
+/// and v are 0.
+struct Hit {
+    float t = infinity;
+    float u = 0, v = 0;
+    std::uint32_t geometry = invalid_id;
+    std::uint32_t primitive = invalid_id;
+    std::uint32_t instance = invalid_id;
+
+    [[nodiscard]] RT_HD bool valid() const { return geometry != invalid_id; }
+};
+
+} // namespace plumb

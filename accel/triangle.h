@@ -1,0 +1,93 @@
+/// \file  Ray-triangle tests, single source for host and device.
+///
+/// Watertight: S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1),
+/// 2013. Möller–Trumbore: T. Möller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle
+/// Intersection", JGT 2(1), 1997. Compile without FMA contraction: `a*b - c*d` must round both
+/// products, or two triangles disagree about their common edge.
+#pragma once
+
+#include "accel/prepared_ray.h"
+
+namespace plumb {
+
+enum class TriangleTest : std::uint8_t { watertight, moeller_trumbore };
+
+RT_HD inline Bounds triangle_bounds(Vec3 a, Vec3 b, Vec3 c) {
+    return {min(a, min(b, c)), max(a, max(b, c))};
+}
+
+namespace detail {
+
+/// Vertex relative to the ray origin, sheared so that the ray runs along +z. z is not yet scaled.
+RT_HD inline Vec3 shear(const PreparedRay& ray, const Vec3& vertex) {
+    const float z = component(vertex, ray.kz) - component(ray.slab.origin, ray.kz);
+    return {component(vertex, ray.kx) - component(ray.slab.origin, ray.kx) - ray.shear_x * z,
+            component(vertex, ray.ky) - component(ray.slab.origin, ray.ky) - ray.shear_y * z, z};
+}
+
+/// Twice the signed area spanned by two sheared vertices and the ray, in double.
+/// Products of two floats are exact in double, so the sign is exact.
+RT_HD inline float edge_function_exact(Vec3 p, Vec3 q) {
+    return static_cast<float>(static_cast<double>(p.x) * static_cast<double>(q.y) -
+                              static_cast<double>(p.y) * static_cast<double>(q.x));
+}
+
+RT_HD inline bool watertight_candidate(const PreparedRay& ray, const Vec3& v0, const Vec3& v1,
+                                       const Vec3& v2, PrimitiveHit& hit) {
+    const Vec3 a = shear(ray, v0), b = shear(ray, v1), c = shear(ray, v2);
+    float u = c.x * b.y - c.y * b.x;
+    float v = a.x * c.y - a.y * c.x;
+    float w = b.x * a.y - b.y * a.x;
+    if (u == 0 || v == 0 || w == 0) {
+        u = edge_function_exact(c, b);
+        v = edge_function_exact(a, c);
+        w = edge_function_exact(b, a);
+    }
+    if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0))
+        return false;
+    const float det = u + v + w;
+    if (det == 0 || !(std::fabs(det) < infinity))
+        return false;
+    const float weight_b = v / det, weight_c = w / det;
+    const float z = u / det * a.z + weight_b * b.z + weight_c * c.z;
+    hit = {z * ray.shear_z, weight_b, weight_c};
+    return true;
+}
+
+RT_HD inline bool moeller_trumbore_candidate(const PreparedRay& ray, Vec3 v0, Vec3 v1, Vec3 v2,
+                                             PrimitiveHit& hit) {
+    const Vec3 e1 = v1 - v0, e2 = v2 - v0;
+    const Vec3 p = cross(ray.direction, e2);
+    const float det = dot(e1, p);
+    if (det == 0)
+        return false;
+    const Vec3 s = ray.slab.origin - v0;
+    const float u = dot(s, p) / det;
+    if (!(u >= 0 && u <= 1))
+        return false;
+    const Vec3 q = cross(s, e1);
+    const float v = dot(ray.direction, q) / det;
+    if (!(v >= 0 && u + v <= 1))
+        return false;
+    hit = {dot(e2, q) / det, u, v};
+    return true;
+}
+
+} // namespace detail
+
+/// Intersects triangle (v0, v1, v2), both sides, for tmin < t <= tmax. Barycentrics: hit point
+/// (1-u-v) v0 + u v1 + v v2. Degenerate triangles are never hit.
+template <TriangleTest Test = TriangleTest::watertight>
+RT_HD inline bool intersect_triangle(const PreparedRay& ray, const Vec3& v0, const Vec3& v1,
+                                     const Vec3& v2, float tmax, PrimitiveHit& hit) {
+    if constexpr (Test == TriangleTest::watertight) {
+        if (!detail::watertight_candidate(ray, v0, v1, v2, hit))
+            return false;
+    } else {
+        if (!detail::moeller_trumbore_candidate(ray, v0, v1, v2, hit))
+            return false;
+    }
+    return settle(ray, triangle_bounds(v0, v1, v2), tmax, hit);
+}
+
+} // namespace plumb
