@@ -24,7 +24,7 @@ struct Vec3 {
     [[nodiscard]] RT_HD constexpr float& operator[](int axis) {
         return axis == 0 ? x : axis == 1 ? y : z;
     }
-    RT_HD constexpr bool operator==(const Vec3&) const = default;
+    constexpr bool operator==(const Vec3&) const = default;
 };
 
 RT_HD constexpr Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
