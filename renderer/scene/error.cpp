@@ -22,9 +22,9 @@ SceneError::SceneError(ErrorKind kind, const SourceLocation& where, const std::s
 std::string to_string(const SourceLocation& where) {
     std::string text = where.file;
     if (where.line > 0)
-        text += ":" + std::to_string(where.line);
+        text.append(1, ':').append(std::to_string(where.line));
     if (where.line > 0 && where.column > 0)
-        text += ":" + std::to_string(where.column);
+        text.append(1, ':').append(std::to_string(where.column));
     return text;
 }
 
