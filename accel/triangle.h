@@ -12,8 +12,23 @@ namespace plumb {
 
 enum class TriangleTest : std::uint8_t { watertight, moeller_trumbore };
 
-RT_HD inline Bounds triangle_bounds(Vec3 a, Vec3 b, Vec3 c) {
+/// Box of three points.
+RT_HD inline Bounds vertex_bounds(Vec3 a, Vec3 b, Vec3 c) {
     return {min(a, min(b, c)), max(a, max(b, c))};
+}
+
+/// Box of a triangle, rounded outwards by what the shear of the watertight test can be wrong by:
+/// each sheared vertex rounds five times, relative to its distance from the ray's origin. The part
+/// that grows with the distance to the hit is in slab_padding; this is the part that grows with the
+/// triangle. Without it a ray that starts near a large wall escapes beside the wall's edges: the
+/// edge test accepts the triangle while the ray passes just outside the tight box.
+RT_HD inline Bounds triangle_bounds(Vec3 a, Vec3 b, Vec3 c) {
+    const Bounds tight = vertex_bounds(a, b, c);
+    const float margin = 8 * unit_roundoff * max_component(tight.extent());
+    const Vec3 unit{margin, margin, margin};
+    const float ulp = 2 * unit_roundoff; // or the margin is lost in rounding far from zero
+    return {tight.lower - (unit + ulp * abs(tight.lower)),
+            tight.upper + (unit + ulp * abs(tight.upper))};
 }
 
 namespace detail {
@@ -87,6 +102,7 @@ RT_HD inline bool intersect_triangle(const PreparedRay& ray, const Vec3& v0, con
         if (!detail::moeller_trumbore_candidate(ray, v0, v1, v2, hit))
             return false;
     }
+    hit.t = clamp_between(slab_interval(ray.slab, vertex_bounds(v0, v1, v2)), hit.t);
     return settle(ray, triangle_bounds(v0, v1, v2), tmax, hit);
 }
 

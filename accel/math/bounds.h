@@ -79,6 +79,13 @@ struct Interval {
     return {near, far > 0 ? far * slab_padding : far};
 }
 
+/// t moved between the two ends, whichever is the larger: of a box that the ray passes by a
+/// rounding error only, they are inverted and nearly equal. A NaN stays one.
+[[nodiscard]] RT_HD inline float clamp_between(Interval ends, float t) {
+    const float low = min(ends.near, ends.far), high = max(ends.near, ends.far);
+    return t < low ? low : t > high ? high : t;
+}
+
 /// Whether the box can hold a hit with tmin < t <= tmax.
 [[nodiscard]] RT_HD inline bool overlaps(Interval box, float tmin, float tmax) {
     return box.near <= box.far && box.near <= tmax && box.far >= tmin;
