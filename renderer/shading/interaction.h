@@ -1,0 +1,100 @@
+/// \file  The point where a ray met a surface, with a bound of its error, host and device.
+///
+/// Hit points come from barycentrics (triangles) or are projected back onto the sphere; origins of
+/// further rays are moved off the surface by the bound of the rounding error: M. Pharr, W. Jakob,
+/// G. Humphreys, Physically Based Rendering, 4th ed., section 6.8.
+#pragma once
+
+#include "accel/math/frame.h"
+#include "renderer/scene/scene_view.h"
+
+#include <bit>
+
+namespace plumb {
+
+struct Interaction {
+    Vec3 position;
+    Vec3 error;     ///< bound of |position - true point|, each axis
+    Vec3 geometric; ///< unit normal of the front
+    Vec3 shading;   ///< unit shading normal, on the same side
+};
+
+namespace detail {
+
+/// The next float away from zero in the direction of `sign` (> 0: up).
+RT_HD inline float next_float(float x, bool up) {
+    if (x == 0)
+        return up ? 1e-45f : -1e-45f;
+    std::uint32_t bits = std::bit_cast<std::uint32_t>(x);
+    bits = ((x > 0) == up) ? bits + 1 : bits - 1;
+    return std::bit_cast<float>(bits);
+}
+
+/// Unit normal of a triangle; the direction back along the ray for slivers without one.
+RT_HD inline Vec3 triangle_normal(const TriangleVertices& t, Vec3 ray_direction) {
+    const Vec3 n = cross(t.b - t.a, t.c - t.a);
+    const float length2 = dot(n, n);
+    if (length2 > 1e-30f && length2 < infinity)
+        return n / std::sqrt(length2);
+    const Vec3 scaled = cross(safe_normalize(t.b - t.a), safe_normalize(t.c - t.a));
+    const float scaled2 = dot(scaled, scaled);
+    return scaled2 > 0 ? safe_normalize(scaled) : safe_normalize(-ray_direction);
+}
+
+RT_HD inline Interaction interact_sphere(const SceneView& scene, const Hit& hit, const Ray& ray) {
+    const Sphere& sphere = scene.geometry.spheres[hit.primitive];
+    const Vec3 out = safe_normalize(ray.origin + ray.direction * hit.t - sphere.center);
+    const Vec3 arm = out * sphere.radius;
+    const bool flip = scene.surfaces[scene.surface_of(hit)].flip_normal;
+    Interaction it;
+    it.position = sphere.center + arm;
+    it.error = rounding_bound(6) * (abs(sphere.center) + abs(arm) + abs(it.position));
+    it.geometric = flip ? -out : out;
+    it.shading = it.geometric;
+    return it;
+}
+
+} // namespace detail
+
+/// Needs a valid hit of this ray. `Smooth`: interpolate shading normals where the mesh has them.
+template <bool Spheres, bool Smooth>
+RT_HD Interaction interact(const SceneView& scene, const Hit& hit, const Ray& ray) {
+    if constexpr (Spheres)
+        if (scene.geometry.is_sphere(hit.geometry))
+            return detail::interact_sphere(scene, hit, ray);
+    const TriangleVertices t = scene.geometry.vertices(hit.geometry, hit.primitive);
+    const Vec3 a = (1 - hit.u - hit.v) * t.a, b = hit.u * t.b, c = hit.v * t.c;
+    Interaction it;
+    it.position = a + b + c;
+    it.error = rounding_bound(7) * (abs(a) + abs(b) + abs(c));
+    it.geometric = detail::triangle_normal(t, ray.direction);
+    it.shading = it.geometric;
+    if constexpr (Smooth) {
+        const std::span<const Vec3> normals = scene.normals[hit.geometry];
+        if (!normals.empty()) {
+            const Triangle i = scene.geometry.meshes[hit.geometry].triangles[hit.primitive];
+            const Vec3 n =
+                (1 - hit.u - hit.v) * normals[i.a] + hit.u * normals[i.b] + hit.v * normals[i.c];
+            const float length2 = dot(n, n);
+            if (length2 > 0)
+                it.shading = n / std::sqrt(length2);
+        }
+    }
+    return it;
+}
+
+/// Origin of a ray that leaves `position` on the side of the geometric normal where `direction`
+/// points: off the surface by the error bound, rounded outwards.
+RT_HD inline Vec3 offset_origin(Vec3 position, Vec3 error, Vec3 normal, Vec3 direction) {
+    const float distance = dot(abs(normal), error);
+    Vec3 offset = normal * distance;
+    if (dot(direction, normal) < 0)
+        offset = -offset;
+    Vec3 origin = position + offset;
+    for (int axis = 0; axis < 3; ++axis)
+        if (offset[axis] != 0)
+            origin[axis] = detail::next_float(origin[axis], offset[axis] > 0);
+    return origin;
+}
+
+} // namespace plumb
