@@ -3,12 +3,20 @@
 
 #include <cerrno>
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
 namespace plumb {
 namespace {
+
+/// Who asks for a file, for messages.
+struct InputSource {
+    const std::filesystem::path& file;
+    ErrorKind kind;
+    const std::vector<SourceLocation>& included_from;
+};
 
 /// An open file descriptor.
 class Descriptor {
@@ -28,8 +36,29 @@ class Descriptor {
     int fd_;
 };
 
-std::string system_message(const char* action) {
-    return std::string(action) + ": " + std::generic_category().message(errno);
+[[noreturn]] void refuse(const InputSource& source, const std::string& what) {
+    throw SceneError(source.kind, {source.file.string(), 0, 0}, what, source.included_from);
+}
+
+[[noreturn]] void refuse_by_errno(const InputSource& source, const char* action) {
+    refuse(source, std::string(action) + ": " + std::generic_category().message(errno));
+}
+
+/// Size in bytes of an open file that read_file accepts.
+std::size_t checked_size(const Descriptor& descriptor, const InputSource& source,
+                         std::uint64_t max_bytes) {
+    struct ::stat status {};
+    if (descriptor.get() < 0 || ::fstat(descriptor.get(), &status) != 0)
+        refuse_by_errno(source, "cannot open");
+    if (S_ISDIR(status.st_mode))
+        refuse(source, "is a directory (expected a file)");
+    if (!S_ISREG(status.st_mode))
+        refuse(source, "is a device or a pipe (expected a regular file)");
+    const auto size = static_cast<std::uint64_t>(status.st_size);
+    if (size > max_bytes)
+        refuse(source, "is too large (got " + std::to_string(size) + " bytes, expected at most " +
+                           std::to_string(max_bytes) + ")");
+    return static_cast<std::size_t>(size);
 }
 
 /// Fills `text` from the start of the file; shortens it if the file has shrunk meanwhile.
@@ -53,25 +82,30 @@ bool read_all(int fd, std::string& text) {
 
 std::string read_file(const std::filesystem::path& file, ErrorKind kind, std::uint64_t max_bytes,
                       const std::vector<SourceLocation>& included_from) {
-    const auto refuse = [&](const std::string& what) {
-        throw SceneError(kind, {file.string(), 0, 0}, what, included_from);
-    };
+    const InputSource source{file, kind, included_from};
     const Descriptor descriptor(file);
-    struct ::stat status {};
-    if (descriptor.get() < 0 || ::fstat(descriptor.get(), &status) != 0)
-        refuse(system_message("cannot open"));
-    if (S_ISDIR(status.st_mode))
-        refuse("is a directory (expected a file)");
-    if (!S_ISREG(status.st_mode))
-        refuse("is a device or a pipe (expected a regular file)");
-    const auto size = static_cast<std::uint64_t>(status.st_size);
-    if (size > max_bytes)
-        refuse("is too large (got " + std::to_string(size) + " bytes, expected at most " +
-               std::to_string(max_bytes) + ")");
-    std::string text(static_cast<std::size_t>(size), '\0');
+    std::string text(checked_size(descriptor, source, max_bytes), '\0');
     if (!read_all(descriptor.get(), text))
-        refuse(system_message("cannot read"));
+        refuse_by_errno(source, "cannot read");
     return text;
+}
+
+MappedFile::MappedFile(const std::filesystem::path& file, ErrorKind kind) {
+    const std::vector<SourceLocation> nowhere;
+    const InputSource source{file, kind, nowhere};
+    const Descriptor descriptor(file);
+    const std::size_t size = checked_size(descriptor, source, max_input_bytes);
+    if (size == 0) // mmap refuses an empty range
+        return;
+    void* const bytes = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor.get(), 0);
+    if (bytes == MAP_FAILED)
+        refuse_by_errno(source, "cannot map");
+    text_ = {static_cast<const char*>(bytes), size};
+}
+
+MappedFile::~MappedFile() {
+    if (!text_.empty())
+        ::munmap(const_cast<char*>(text_.data()), text_.size());
 }
 
 } // namespace plumb

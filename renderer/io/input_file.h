@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace plumb {
@@ -21,5 +22,20 @@ inline constexpr std::uint64_t max_input_bytes = std::uint64_t{1} << 34;
 [[nodiscard]] std::string read_file(const std::filesystem::path& file, ErrorKind kind,
                                     std::uint64_t max_bytes = max_input_bytes,
                                     const std::vector<SourceLocation>& included_from = {});
+
+/// The bytes of a regular file, mapped and read-only: a large mesh is paged in as it is parsed, and
+/// a refusal near its start costs nothing. Refuses what read_file refuses. A file that another
+/// process cuts short while it is mapped raises SIGBUS.
+class MappedFile {
+  public:
+    MappedFile(const std::filesystem::path& file, ErrorKind kind);
+    ~MappedFile();
+    MappedFile(const MappedFile&) = delete;
+    MappedFile& operator=(const MappedFile&) = delete;
+    [[nodiscard]] std::string_view text() const { return text_; }
+
+  private:
+    std::string_view text_;
+};
 
 } // namespace plumb
