@@ -91,7 +91,9 @@ RT_HD inline bool moeller_trumbore_candidate(const PreparedRay& ray, Vec3 v0, Ve
 } // namespace detail
 
 /// Intersects triangle (v0, v1, v2), both sides, for tmin < t <= tmax. Barycentrics: hit point
-/// (1-u-v) v0 + u v1 + v v2. Degenerate triangles are never hit.
+/// (1-u-v) v0 + u v1 + v v2. The watertight test never hits a triangle with two
+/// equal vertices. Three different collinear ones it can hit, within rounding, which keeps the seam
+/// between their neighbours closed; the normal there is zero.
 template <TriangleTest Test = TriangleTest::watertight>
 RT_HD inline bool intersect_triangle(const PreparedRay& ray, const Vec3& v0, const Vec3& v1,
                                      const Vec3& v2, float tmax, PrimitiveHit& hit) {
