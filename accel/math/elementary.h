@@ -37,7 +37,7 @@ RT_HD inline SinCos sincos_turns(float u) {
     return {(q & 2) != 0 ? -s : s, ((q + 1) & 2) != 0 ? -c : c};
 }
 
-/// Sine and cosine of x in radians, |x| <= 2 pi.
+/// Sine and cosine of x in radians, |x| <= 2 pi; absolute error below 1e-6 (x / 2 pi is rounded).
 RT_HD inline SinCos sincos_radians(float x) { return sincos_turns(x * inv_two_pi); }
 
 /// Angle of (x, y) in (-pi, pi], 0 for (0, 0); relative error below 4e-7.

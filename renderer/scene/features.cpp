@@ -7,7 +7,7 @@ Features features_of(const Scene& scene) {
     f.spheres = !scene.spheres.empty();
     f.point_lights = !scene.point_lights.empty();
     f.environment = !is_black(scene.environment);
-    std::size_t lights = scene.point_lights.size() + (f.environment ? 1 : 0);
+    std::size_t lights = scene.point_lights.size() + (f.environment ? 1u : 0u);
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const Mesh& mesh = scene.meshes[i];
         f.smooth_normals |= !mesh.normals.empty();
@@ -17,7 +17,7 @@ Features features_of(const Scene& scene) {
         lights += mesh.is_rectangle ? 1 : mesh.triangles.size();
     }
     for (std::size_t i = scene.meshes.size(); i < scene.surfaces.size(); ++i)
-        lights += is_black(scene.surfaces[i].emission) ? 0 : 1;
+        lights += is_black(scene.surfaces[i].emission) ? 0u : 1u;
     f.many_lights = lights > 1;
     return f;
 }
