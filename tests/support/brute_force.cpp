@@ -51,13 +51,13 @@ std::optional<ExactHit> triangle_hit(const TriangleVertices& tri, const Ray& ray
 
 std::optional<ExactHit> sphere_hit(const Sphere& sphere, const Ray& ray, double slack) {
     const Real3 d = widen(ray.direction), f = widen(ray.origin) - widen(sphere.center);
-    const Real r = static_cast<Real>(sphere.radius) * (1 + static_cast<Real>(slack));
+    const Real r = static_cast<Real>(sphere.radius);
     const Real a = dot(d, d), b = dot(f, d);
     const Real3 passing = f - (b / a) * d; // from the centre to the nearest point of the line
     const Real distance = std::sqrt(dot(passing, passing));
-    if (!(distance <= r))
+    if (!(distance <= r * (1 + static_cast<Real>(slack))))
         return std::nullopt;
-    const Real half = std::sqrt((r - distance) * (r + distance) / a);
+    const Real half = std::sqrt(std::max((r - distance) * (r + distance), Real{0}) / a);
     for (const Real t : {-b / a - half, -b / a + half})
         if (within(t, ray)) {
             ExactHit hit;

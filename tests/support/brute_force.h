@@ -17,7 +17,7 @@ struct ExactHit {
 };
 
 /// Hit of one primitive with tmin < t <= tmax; of a sphere's two the nearer one. Triangles count
-/// with barycentrics >= -slack, spheres with their radius grown by the share `slack`: a slack
+/// with barycentrics >= -slack, spheres where the ray passes within radius * (1 + slack): a slack
 /// above 0 tells a hit that rounding explains from one that is wrong. Degenerate triangles and
 /// primitives that are not traceable give nothing.
 [[nodiscard]] std::optional<ExactHit> exact_hit(const GeometryView& view, std::uint32_t geometry,
