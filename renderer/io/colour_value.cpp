@@ -87,12 +87,6 @@ std::vector<double> parse_doubles(const XmlNode& node, const XmlAttribute& attri
     return parse_list<double>(node, attribute, parse_double);
 }
 
-float srgb_to_linear(float encoded) {
-    const double x = std::fabs(static_cast<double>(encoded));
-    const double linear = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-    return static_cast<float>(std::copysign(linear, static_cast<double>(encoded)));
-}
-
 bool is_colour_element(std::string_view element) {
     return element == "rgb" || element == "srgb" || element == "color" || element == "spectrum" ||
            element == "float";

@@ -1,6 +1,7 @@
 /// \file  Colours as scene files write them.
 #pragma once
 
+#include "renderer/io/srgb.h"
 #include "renderer/io/xml_node.h"
 #include "renderer/scene/rgb.h"
 
@@ -12,9 +13,6 @@ namespace plumb {
 /// else. `what` names the value in messages.
 [[nodiscard]] std::vector<float> parse_floats(const XmlNode& node, const XmlAttribute& attribute);
 [[nodiscard]] std::vector<double> parse_doubles(const XmlNode& node, const XmlAttribute& attribute);
-
-/// Inverse of the sRGB transfer curve (IEC 61966-2-1), [0,1] -> [0,1]; odd and unbounded outside.
-[[nodiscard]] float srgb_to_linear(float encoded);
 
 /// Whether the element is one that parse_colour reads: rgb, srgb, color, spectrum, float.
 [[nodiscard]] bool is_colour_element(std::string_view element);
