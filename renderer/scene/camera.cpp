@@ -50,7 +50,7 @@ Camera make_camera(const CameraDescription& d, int width, int height) {
     Camera camera;
     camera.origin = world.point({0, 0, 0});
     camera.corner =
-        direction(half.x * (1 + 2 * d.principal_x), half.y * (1 + 2 * d.principal_y), 1);
+        direction(half.x * (1 - 2 * d.principal_x), half.y * (1 - 2 * d.principal_y), 1);
     camera.dx = direction(-2 * half.x, 0, 0);
     camera.dy = direction(0, -2 * half.y, 0);
     camera.forward = direction(0, 0, 1);

@@ -36,7 +36,9 @@ enum class FovAxis : std::uint8_t { x, y, diagonal, smaller, larger };
 struct CameraDescription {
     double fov_deg = 39.3077; ///< full angle along fov_axis, in (0, 180)
     FovAxis fov_axis = FovAxis::x;
-    double principal_x = 0, principal_y = 0; ///< principal point offset, fractions of the film size
+    /// Principal point offset, fractions of the film size: the ray through (x, y) is the one that a
+    /// centred camera sends through (x + principal_x, y + principal_y), as Mitsuba 3 has it.
+    double principal_x = 0, principal_y = 0;
     double near_clip = 1e-2, far_clip = 1e4;
     Transform to_world;
 };
