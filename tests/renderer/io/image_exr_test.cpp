@@ -4,13 +4,11 @@
 #include "renderer/scene/error.h"
 #include "tests/support/random.h"
 
-#include <ImfChromaticitiesAttribute.h>
-#include <ImfHeader.h>
-#include <ImfInputFile.h>
-#include <ImfStandardAttributes.h>
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -122,16 +120,16 @@ TEST(Exr, MetadataComesBackWithItsTypes) {
 }
 
 TEST(Exr, ChromaticitiesAreRec709WithD65) {
-    const auto path = temporary("chromaticities.exr");
-    store(path, encode_exr(noise(2, 2, 1), {}, {}));
-    const Imf::InputFile file(path.c_str());
-    ASSERT_TRUE(Imf::hasChromaticities(file.header()));
-    const Imf::Chromaticities c = Imf::chromaticities(file.header());
-    // ITU-R BT.709-6, item 1.3 and 1.4.
-    EXPECT_EQ(c.red, Imath::V2f(0.64f, 0.33f));
-    EXPECT_EQ(c.green, Imath::V2f(0.30f, 0.60f));
-    EXPECT_EQ(c.blue, Imath::V2f(0.15f, 0.06f));
-    EXPECT_EQ(c.white, Imath::V2f(0.3127f, 0.3290f));
+    const std::string bytes = encode_exr(noise(2, 2, 1), {}, {});
+    const std::string name("chromaticities\0chromaticities\0", 30); // then the size, 4 bytes
+    const std::size_t at = bytes.find(name);
+    ASSERT_NE(at, std::string::npos);
+    float values[8];
+    std::memcpy(values, bytes.data() + at + name.size() + 4, sizeof(values));
+    // ITU-R BT.709-6, items 1.3 and 1.4: red, green, blue, white.
+    const float expected[] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
+    for (std::size_t i = 0; i < 8; ++i)
+        EXPECT_EQ(values[i], expected[i]) << i;
 }
 
 TEST(Exr, BytesDoNotDependOnTheNumberOfRuns) {
