@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -48,7 +49,7 @@ RTCRay to_embree(const Ray& ray) {
     r.org_x = ray.origin.x;
     r.org_y = ray.origin.y;
     r.org_z = ray.origin.z;
-    r.tnear = ray.tmin;
+    r.tnear = std::nextafter(ray.tmin, infinity); // Embree's triangles take t >= tnear
     r.dir_x = ray.direction.x;
     r.dir_y = ray.direction.y;
     r.dir_z = ray.direction.z;
@@ -60,7 +61,7 @@ RTCRay to_embree(const Ray& ray) {
 PreparedRay prepared(RTCRayN* rays, unsigned n, unsigned i) {
     return PreparedRay(
         Ray{{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
-            RTCRayN_tnear(rays, n, i),
+            std::nextafter(RTCRayN_tnear(rays, n, i), -infinity), // tmin again
             {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
             RTCRayN_tfar(rays, n, i)});
 }
