@@ -1,0 +1,133 @@
+/// \file  The command line program: one straight line from scene to image.
+
+#include "renderer/io/write_file.h"
+#include "renderer/options.h"
+#include "renderer/report.h"
+#include "renderer/scene/error.h"
+#include "renderer/scene/scene_tables.h"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <new>
+
+namespace plumb {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::atomic<bool> cancelled{false};
+std::atomic<int> caught_signal{0};
+
+/// SIGINT, SIGTERM, SIGHUP: the tiles in work are finished and what is there is written.
+extern "C" void request_stop(int signal_number) {
+    caught_signal = signal_number;
+    cancelled = true;
+}
+
+void default_outputs(Options& options) {
+    if (!options.outputs.files.empty())
+        return;
+    const std::filesystem::path name = options.scene.file.stem();
+    options.outputs.files = {name.string() + ".exr", name.string() + ".png"};
+}
+
+Metadata metadata_of(const Options& options, const Scene& scene, const RunReport& report) {
+    return {{"software", "plumbline " PLUMB_VERSION},
+            {"commandLine", options.command_line},
+            {"sceneFile", options.scene.file.string()},
+            {"spp", static_cast<int>(scene.sampler.spp)},
+            {"seed", std::to_string(scene.sampler.seed)},
+            {"accelerator", report.accel},
+            {"renderSeconds", static_cast<float>(report.render.render_s)}};
+}
+
+void print_lines(const std::vector<std::string>& lines) {
+    for (const std::string& line : lines)
+        fmt::print(stderr, "{}\n", line);
+}
+
+Film render_with_progress(const Options& options, const Scene& scene, const SceneTables& tables,
+                          RunReport& report) {
+    const auto intersector = make_intersector(options.accel, tables.geometry(), options.build);
+    report.build = intersector->stats();
+    report.accel = name_of(options.accel);
+    report.threads = options.threads;
+    ProgressPrinter progress(options.quiet);
+    RenderOptions how;
+    how.threads = options.threads;
+    how.variance = options.variance;
+    how.force_full_profile = options.full_profile;
+    how.progress = [&progress](double done, std::uint64_t rays) { progress.update(done, rays); };
+    how.cancel = &cancelled;
+    return render(make_job(scene, tables.view()), features_of(scene), *intersector, how,
+                  report.render);
+}
+
+int run(Options options) {
+    const auto start = Clock::now();
+    RunReport report;
+    report.scene = options.scene.file.string();
+    Scene scene = load_scene(options.scene);
+    apply_options(options, scene);
+    if (!options.quiet)
+        print_lines(scene.warnings);
+    if (options.explain) {
+        fmt::print("{}", explain(scene, features_of(scene)));
+        return 0;
+    }
+    default_outputs(options);
+    if (!options.stats_file.empty())
+        check_writable(options.stats_file);
+    check_outputs(options.outputs, scene.film.crop.width, scene.film.crop.height);
+    report.load_s = seconds_since(start);
+
+    const SceneTables tables(scene);
+    const Image image = render_with_progress(options, scene, tables, report).resolve();
+
+    const auto write_start = Clock::now();
+    write_images(image, options.outputs, metadata_of(options, scene, report));
+    report.write_s = seconds_since(write_start);
+    report.total_s = seconds_since(start);
+    report.image_hash = hash_of(image);
+    report.peak_bytes = peak_memory();
+    if (!options.quiet) {
+        fmt::print("{}", closing_table(report));
+        for (const auto& file : options.outputs.files)
+            fmt::print("wrote {}\n", file.string());
+    }
+    if (!options.stats_file.empty())
+        atomic_write(options.stats_file, to_json(report, scene));
+    return caught_signal != 0 ? 128 + caught_signal : 0;
+}
+
+/// The one place where exceptions become exit codes.
+int run_and_report(const Options& options) {
+    try {
+        return run(options);
+    } catch (const SceneError& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return error.exit_code();
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "error: out of memory\n");
+        return static_cast<int>(ErrorKind::resources);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "error: internal: {}\n", error.what());
+        return 70;
+    }
+}
+
+} // namespace
+} // namespace plumb
+
+int main(int argc, char** argv) {
+    for (const int signal_number : {SIGINT, SIGTERM, SIGHUP})
+        std::signal(signal_number, plumb::request_stop);
+    const plumb::ParsedOptions parsed = plumb::parse_options(argc, argv);
+    return parsed.options ? plumb::run_and_report(*parsed.options) : parsed.exit_code;
+}

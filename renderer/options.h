@@ -1,0 +1,52 @@
+/// \file  The command line of the renderer.
+#pragma once
+
+#include "accel/intersector.h"
+#include "renderer/io/load_scene.h"
+#include "renderer/io/write_images.h"
+#include "renderer/scene/scene.h"
+
+#include <optional>
+
+namespace plumb {
+
+enum class Device : std::uint8_t { cpu, cuda, automatic };
+
+/// What the user asked for. Empty optionals leave the scene's own value.
+struct Options {
+    LoadOptions scene;
+    OutputOptions outputs;
+    AccelKind accel = AccelKind::sah;
+    BuildOptions build;
+    Device device = Device::cpu;
+    int threads = 0; ///< 0: all cores
+    std::optional<Estimator> estimator;
+    std::optional<HemisphereSampling> hemisphere;
+    std::optional<LightSampling> light_sampling;
+    std::optional<RouletteKind> roulette;
+    std::optional<float> roulette_constant;
+    std::optional<int> rr_depth, max_depth;
+    std::optional<SamplerKind> sampler;
+    std::optional<std::uint32_t> spp;
+    std::optional<std::uint64_t> seed;
+    bool variance = false;
+    bool full_profile = false;
+    bool explain = false;
+    bool quiet = false;
+    std::filesystem::path stats_file;
+    std::string command_line; ///< as typed, for the image's metadata
+};
+
+/// Either options, or the exit code of a run that ends here (--help, --version, a usage error that
+/// was printed to stderr).
+struct ParsedOptions {
+    std::optional<Options> options;
+    int exit_code = 0;
+};
+
+[[nodiscard]] ParsedOptions parse_options(int argc, const char* const* argv);
+
+/// Puts what the command line says over what the scene says.
+void apply_options(const Options& options, Scene& scene);
+
+} // namespace plumb

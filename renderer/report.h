@@ -1,0 +1,56 @@
+/// \file  What the renderer tells: progress, the closing table, --stats and --explain.
+#pragma once
+
+#include "accel/intersector.h"
+#include "renderer/integrate/render.h"
+#include "renderer/options.h"
+
+#include <chrono>
+#include <mutex>
+
+namespace plumb {
+
+/// Everything measured in one run. Seconds are wall time.
+struct RunReport {
+    std::string scene;
+    std::string accel;
+    std::string device = "cpu";
+    int threads = 1;
+    double load_s = 0, write_s = 0, total_s = 0;
+    AccelStats build;
+    RenderStats render;
+    std::uint64_t image_hash = 0; ///< of the resolved float pixels (FNV-1a, 64 bit)
+    std::size_t peak_bytes = 0;   ///< largest resident set of the process
+};
+
+/// Progress on stderr: a bar on a terminal, a plain line every 10 % (at most one a second)
+/// elsewhere. Thread-safe.
+class ProgressPrinter {
+  public:
+    explicit ProgressPrinter(bool quiet);
+    ~ProgressPrinter();
+    ProgressPrinter(const ProgressPrinter&) = delete;
+    ProgressPrinter& operator=(const ProgressPrinter&) = delete;
+    void update(double done, std::uint64_t rays);
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    void print(double done, std::uint64_t rays, double elapsed_s);
+
+    std::mutex mutex_;
+    Clock::time_point start_ = Clock::now(), last_ = start_;
+    double last_done_ = 0;
+    bool quiet_, terminal_, printed_ = false;
+};
+
+/// FNV-1a over the bits of the pixels: equal images, equal hashes, on any machine of one
+/// endianness.
+[[nodiscard]] std::uint64_t hash_of(const Image& image);
+/// Largest resident set of this process, bytes.
+[[nodiscard]] std::size_t peak_memory();
+
+[[nodiscard]] std::string closing_table(const RunReport& report);
+[[nodiscard]] std::string to_json(const RunReport& report, const Scene& scene);
+[[nodiscard]] std::string explain(const Scene& scene, const Features& needed);
+
+} // namespace plumb
