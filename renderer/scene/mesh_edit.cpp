@@ -1,27 +1,13 @@
 /// \file  What a scene file can ask of a mesh after it is read: transform, flip, drop normals.
 #include "renderer/scene/mesh_edit.h"
 
+#include "renderer/scene/double3.h"
+
 #include <cmath>
 #include <utility>
 
 namespace plumb {
 namespace {
-
-struct Double3 {
-    double x = 0, y = 0, z = 0;
-};
-
-Double3 edge(Vec3 from, Vec3 to) {
-    return {static_cast<double>(to.x) - static_cast<double>(from.x),
-            static_cast<double>(to.y) - static_cast<double>(from.y),
-            static_cast<double>(to.z) - static_cast<double>(from.z)};
-}
-
-double dot(Double3 a, Double3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-Double3 cross(Double3 a, Double3 b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 /// Angle between two vectors, stable near 0 and pi; 0 if one of them is zero.
 double angle(Double3 a, Double3 b) {

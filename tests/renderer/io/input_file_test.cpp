@@ -11,7 +11,10 @@
 namespace plumb {
 namespace {
 
-std::string scratch(const std::string& name) { return testing::TempDir() + "input_file_" + name; }
+/// ctest runs the tests as processes side by side.
+std::string scratch(const std::string& name) {
+    return testing::TempDir() + "input_file_" + std::to_string(::getpid()) + name;
+}
 
 /// The message with which both ways to read refuse `file`.
 std::string refusal(const std::string& file) {
@@ -40,6 +43,7 @@ TEST(InputFile, ReadsBytesAsTheyAre) {
     std::ofstream(file, std::ios::trunc).close();
     EXPECT_EQ(read_file(file, ErrorKind::scene), "");
     EXPECT_EQ(MappedFile(file, ErrorKind::mesh).text(), "");
+    ::unlink(file.c_str());
 }
 
 TEST(InputFile, RefusesWhatIsNoReadableRegularFile) {
@@ -53,6 +57,7 @@ TEST(InputFile, RefusesWhatIsNoReadableRegularFile) {
     ::unlink(pipe.c_str());
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     EXPECT_EQ(refusal(pipe), pipe + ": error: is a device or a pipe (expected a regular file)");
+    ::unlink(pipe.c_str());
 }
 
 TEST(InputFile, RefusesAnUnreadableFile) {
@@ -62,7 +67,7 @@ TEST(InputFile, RefusesAnUnreadableFile) {
     std::ofstream(file) << "x";
     ::chmod(file.c_str(), 0);
     EXPECT_EQ(refusal(file), file + ": error: cannot open: Permission denied");
-    ::chmod(file.c_str(), 0600);
+    ::unlink(file.c_str());
 }
 
 TEST(InputFile, ChecksTheSizeBeforeItReadsAndNamesTheIncludingFile) {
