@@ -209,7 +209,7 @@ TEST(ReadObj, ReadsAFaceOfAMillionCorners) {
     std::string text, face = "f";
     for (int i = 0; i < 1000000; ++i) {
         text += "v " + std::to_string(i) + " " + std::to_string(i % 1000 * (i % 1000)) + " 0\n";
-        face += " " + std::to_string(i + 1);
+        face.append(1, ' ').append(std::to_string(i + 1));
     }
     const Reading reading = read(text + face + "\n");
     EXPECT_EQ(reading.error, "");
