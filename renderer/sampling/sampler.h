@@ -96,6 +96,37 @@ constexpr SobolRows make_sobol_rows() {
     return rows;
 }
 
+/// The rows summed up (xor) for every value of each four bits of an index: a point takes as many
+/// look-ups as the index has hexadecimal digits.
+struct SobolDigits {
+    Uint4 sum[8][16];
+};
+
+constexpr SobolDigits make_sobol_digits() {
+    const SobolRows rows = make_sobol_rows();
+    SobolDigits digits{};
+    for (unsigned position = 0; position < 8; ++position)
+        for (unsigned value = 0; value < 16; ++value)
+            for (unsigned bit = 0; bit < 4; ++bit)
+                for (unsigned d = 0; d < 4; ++d)
+                    if (((value >> bit) & 1u) != 0)
+                        digits.sum[position][value].x[d] ^= rows.row[4 * position + bit].x[d];
+    return digits;
+}
+
+/// Four seeds for scrambling, independent between pixels. The low bits of pcg4d are its weak ones,
+/// and scrambling takes the leading bits of its numbers from them: the high bits are mixed in (as
+/// the hash lowbias32 of C. Wellons, 2018, begins).
+RT_HD inline Uint4 scramble_keys(std::uint32_t pixel, std::uint32_t group, std::uint32_t seed) {
+    Uint4 key = pcg4d({pixel, 0x5f356495u, group, seed});
+    for (std::uint32_t& c : key.x) {
+        c ^= c >> 16;
+        c *= 0x7feb352du;
+        c ^= c >> 15;
+    }
+    return key;
+}
+
 } // namespace detail
 
 /// The numbers of one sample of one pixel.
@@ -121,8 +152,7 @@ class Sampler {
     }
 
     RT_HD Sample4 sobol(std::uint32_t group) const {
-        // The four words of one hash scramble the four dimensions.
-        const detail::Uint4 key = detail::pcg4d({pixel_, 0x5f356495u, group, seed_});
+        const detail::Uint4 key = detail::scramble_keys(pixel_, group, seed_);
         std::uint32_t index = sample_;
         if (group > 0) {
             // Only the low 16 bits are shuffled: blocks of 65536 samples keep their order.
@@ -131,13 +161,11 @@ class Sampler {
             const std::uint32_t shuffled = detail::scramble_reversed(reversed, seed);
             index = (index & 0xffff0000u) | detail::reverse_bits(shuffled << 16);
         }
-        static constexpr detail::SobolRows rows = detail::make_sobol_rows();
+        static constexpr detail::SobolDigits digits = detail::make_sobol_digits();
         detail::Uint4 bits{};
-        for (std::uint32_t rest = index, i = 0; rest != 0; rest >>= 1, ++i) {
-            const std::uint32_t mask = 0u - (rest & 1u);
+        for (std::uint32_t rest = index, i = 0; rest != 0; rest >>= 4, ++i)
             for (int d = 0; d < 4; ++d)
-                bits.x[d] ^= rows.row[i].x[d] & mask;
-        }
+                bits.x[d] ^= digits.sum[i][rest & 15u].x[d];
         for (int d = 0; d < 4; ++d)
             bits.x[d] = detail::reverse_bits(detail::scramble_reversed(bits.x[d], key.x[d]));
         return to_floats(bits);
