@@ -42,6 +42,14 @@ double z_of(double difference, double variance) {
     return difference == 0 ? 0 : std::copysign(std::numeric_limits<double>::infinity(), difference);
 }
 
+/// Of the mean of `count` differences whose squares sum to `squares`.
+double paired_z(double mean, double squares, double count) {
+    if (count < 2)
+        return 0;
+    const double variance = std::max(squares / count - mean * mean, 0.0) / (count - 1);
+    return z_of(mean, variance);
+}
+
 /// Variance of rounding to a half: uniform within half an ulp, which is at most 2^-12 of the value
 /// and 2^-25 among the subnormal ones.
 double rounding_variance(double value) {
@@ -114,7 +122,7 @@ double ImageComparison::mean_error() const {
 ImageComparison compare(const Image& a, const Image& b) {
     require_same_size(a, b);
     ImageComparison result;
-    PerChannel counted{};
+    PerChannel counted{}, squares{};
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
         const Channels va = channels(a.pixels[i]), vb = channels(b.pixels[i]);
         for (std::size_t c = 0; c < 3; ++c) {
@@ -125,7 +133,7 @@ ImageComparison compare(const Image& a, const Image& b) {
                 continue;
             }
             const double d = double{va[c]} - double{vb[c]};
-            result.mse += d * d;
+            squares[c] += d * d;
             result.rel_mse += d * d / (double{vb[c]} * double{vb[c]} + 0.01);
             result.mean_a[c] += double{va[c]};
             result.mean_b[c] += double{vb[c]};
@@ -139,11 +147,12 @@ ImageComparison compare(const Image& a, const Image& b) {
     }
     const double total = counted[0] + counted[1] + counted[2];
     result.values = static_cast<std::size_t>(total);
-    result.mse /= std::max(total, 1.0);
+    result.mse = (squares[0] + squares[1] + squares[2]) / std::max(total, 1.0);
     result.rel_mse /= std::max(total, 1.0);
     for (std::size_t c = 0; c < 3; ++c) {
         result.mean_a[c] /= std::max(counted[c], 1.0);
         result.mean_b[c] /= std::max(counted[c], 1.0);
+        result.mean_z[c] = paired_z(result.mean_a[c] - result.mean_b[c], squares[c], counted[c]);
     }
     result.psnr_db =
         result.mse > 0 ? -10 * std::log10(result.mse) : std::numeric_limits<double>::infinity();

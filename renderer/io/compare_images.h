@@ -23,7 +23,10 @@ struct ImageComparison {
     double max_abs = 0;            ///< largest |d|
     int max_x = 0, max_y = 0;      ///< where that is, in pixels of the image held
     PerChannel mean_a{}, mean_b{}; ///< over the same values
-    std::size_t values = 0;        ///< pixel channels compared
+    /// z of the mean difference, its noise taken from the scatter of the differences themselves: a
+    /// paired test of the image mean that needs no variance. Infinite for a constant difference.
+    PerChannel mean_z{};
+    std::size_t values = 0;     ///< pixel channels compared
     std::size_t non_finite = 0; ///< left out: NaN or infinite in a or b, unless bit for bit equal
     std::size_t different_bits = 0; ///< pixel channels that do not have the same bits
 

@@ -61,6 +61,8 @@ TEST(CompareImages, MeasuresOfASmallImageAreTheOnesByHand) {
     EXPECT_DOUBLE_EQ(c.mean_error(), 4.0 / 3 - 1);
     EXPECT_EQ(c.different_bits, 1u);
     EXPECT_EQ(c.values, 6u);
+    EXPECT_EQ(c.mean_z[0], 0);
+    EXPECT_DOUBLE_EQ(c.mean_z[2], 1); // differences 0 and 2: mean 1, standard error 1
 }
 
 TEST(CompareImages, EqualImagesHaveNoDifferenceAndInfinitePsnr) {
@@ -113,6 +115,15 @@ TEST(ZTestOfImages, TestOfTheMeanSeesABiasThatNoPixelShows) {
     EXPECT_FALSE(t.mean_passes());
     // 48² pixels: the standard error of a mean's difference is sqrt(2 / 16) / 48.
     EXPECT_NEAR(t.mean_z[0], 0.025 / (std::sqrt(2.0 / 16) / 48), 4.75);
+}
+
+TEST(CompareImages, PairedTestOfTheMeanAgreesWithTheOneByVariance) {
+    const Image a = noisy(1, 16, 1.05f), b = noisy(2, 16);
+    const ImageComparison c = compare(a, b);
+    const ZTest t = z_test(a, 16, b, 16);
+    for (std::size_t channel = 0; channel < 3;
+         ++channel) // noise of the variance: 1 / sqrt(2 * 48²)
+        EXPECT_NEAR(c.mean_z[channel] / t.mean_z[channel], 1, 4.75 / (48 * std::sqrt(2.0)) / 2);
 }
 
 TEST(ZTestOfImages, TestOfPixelsSeesOneWrongPixel) {
