@@ -31,6 +31,17 @@ RT_HD inline Bounds triangle_bounds(Vec3 a, Vec3 b, Vec3 c) {
             tight.upper + (unit + ulp * abs(tight.upper))};
 }
 
+/// How far from a triangle's plane the tests below may still find a ray's origin in front of it:
+/// `edge1` and `edge2` span the triangle. The shear rounds 4 u of the distance to each vertex, and
+/// in slivers that error grows by length / height (followed up to 16). Rays that leave a surface
+/// must start farther off than this, or they hit it again: on a wall of size 2 that passes through
+/// y = 0 the bound of the hit point alone is 1e-14, the error of t 1e-7.
+RT_HD inline float plane_slack(Vec3 edge1, Vec3 edge2, float cross_length) {
+    const float size = max_component(abs(edge1)) + max_component(abs(edge2));
+    const float stretch = size * size / (4 * cross_length); // 1 for a right angle of equal sides
+    return 8 * unit_roundoff * size * clamp(stretch, 1, 16);
+}
+
 namespace detail {
 
 /// Vertex relative to the ray origin, sheared so that the ray runs along +z. z is not yet scaled.

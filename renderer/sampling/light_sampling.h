@@ -6,6 +6,7 @@
 #pragma once
 
 #include "accel/math/frame.h"
+#include "accel/triangle.h"
 #include "renderer/sampling/spherical_rectangle.h"
 #include "renderer/sampling/spherical_triangle.h"
 #include "renderer/sampling/warp.h"
@@ -58,10 +59,11 @@ RT_HD inline SphericalRectangle spherical_rectangle(const Light& light, Vec3 pos
 RT_HD inline LightSample flat_sample(const Light& light, Vec3 position, Vec2 st) {
     const Vec3 e1 = light.edge1 * st.x, e2 = light.edge2 * st.y;
     const Vec3 error = rounding_bound(7) * (abs(light.origin) + abs(e1) + abs(e2));
+    const float slack = plane_slack(light.edge1, light.edge2, 2 * light.area);
     LightSample s;
     const Vec3 point = light.origin + e1 + e2;
     s.wi = normalize(point - position);
-    s.target = point + light.normal * dot(abs(light.normal), error);
+    s.target = point + light.normal * (dot(abs(light.normal), error) + slack);
     s.radiance = light.emission;
     s.pdf = area_to_solid_angle(point - position, light.normal, light.area);
     return s;

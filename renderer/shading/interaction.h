@@ -30,15 +30,11 @@ RT_HD inline float next_float(float x, bool up) {
     return std::bit_cast<float>(bits);
 }
 
-/// Unit normal of a triangle; the direction back along the ray for slivers without one.
-RT_HD inline Vec3 triangle_normal(const TriangleVertices& t, Vec3 ray_direction) {
-    const Vec3 n = cross(t.b - t.a, t.c - t.a);
-    const float length2 = dot(n, n);
-    if (length2 > 1e-30f && length2 < infinity)
-        return n / std::sqrt(length2);
-    const Vec3 scaled = cross(safe_normalize(t.b - t.a), safe_normalize(t.c - t.a));
-    const float scaled2 = dot(scaled, scaled);
-    return scaled2 > 0 ? safe_normalize(scaled) : safe_normalize(-ray_direction);
+/// Unit normal of a sliver whose cross product is too small: from scaled edges, or the direction
+/// back along the ray if they are parallel.
+RT_HD inline Vec3 sliver_normal(Vec3 edge1, Vec3 edge2, Vec3 ray_direction) {
+    const Vec3 scaled = cross(safe_normalize(edge1), safe_normalize(edge2));
+    return safe_normalize(dot(scaled, scaled) > 0 ? scaled : -ray_direction);
 }
 
 RT_HD inline Interaction interact_sphere(const SceneView& scene, const Hit& hit, const Ray& ray) {
@@ -66,18 +62,23 @@ RT_HD Interaction interact(const SceneView& scene, const Hit& hit, const Ray& ra
     const Vec3 a = (1 - hit.u - hit.v) * t.a, b = hit.u * t.b, c = hit.v * t.c;
     Interaction it;
     it.position = a + b + c;
-    it.error = rounding_bound(7) * (abs(a) + abs(b) + abs(c));
-    it.geometric = detail::triangle_normal(t, ray.direction);
+    const Vec3 edge1 = t.b - t.a, edge2 = t.c - t.a;
+    const Vec3 n = cross(edge1, edge2);
+    const float length2 = dot(n, n), cross_length = std::sqrt(length2);
+    const float slack = plane_slack(edge1, edge2, cross_length);
+    it.error = rounding_bound(7) * (abs(a) + abs(b) + abs(c)) + Vec3{slack, slack, slack};
+    it.geometric = length2 > 1e-30f && length2 < infinity
+                       ? n / cross_length
+                       : detail::sliver_normal(edge1, edge2, ray.direction);
     it.shading = it.geometric;
     if constexpr (Smooth) {
         const std::span<const Vec3> normals = scene.normals[hit.geometry];
         if (!normals.empty()) {
             const Triangle i = scene.geometry.meshes[hit.geometry].triangles[hit.primitive];
-            const Vec3 n =
+            const Vec3 smooth =
                 (1 - hit.u - hit.v) * normals[i.a] + hit.u * normals[i.b] + hit.v * normals[i.c];
-            const float length2 = dot(n, n);
-            if (length2 > 0)
-                it.shading = n / std::sqrt(length2);
+            if (dot(smooth, smooth) > 0)
+                it.shading = normalize(smooth);
         }
     }
     return it;
