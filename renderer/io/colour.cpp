@@ -88,7 +88,7 @@ ocio::GroupTransformRcPtr transform_of(const Config& config, const std::string& 
     return group;
 }
 
-/// Lossless: the default optimisation replaces powers by fast ones that miss codes.
+/// Lossless: the default replaces powers by faster approximations.
 ocio::ConstCPUProcessorRcPtr processor_of(const DisplayOptions& options) {
     if (!std::isfinite(options.exposure))
         refuse({}, "bad exposure (expected a finite number of stops)");

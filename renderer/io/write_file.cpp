@@ -126,13 +126,6 @@ void write_directly(const path& target, std::string_view bytes) {
         refuse_by_errno(target, "cannot be written", error);
 }
 
-/// Makes the rename itself last. A failure here loses nothing that was written: not reported.
-void flush_folder(const path& folder) {
-    const OpenFile handle(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (handle.get() >= 0)
-        static_cast<void>(::fsync(handle.get()));
-}
-
 void replace(const path& target, const path& real, std::string_view bytes,
              const std::optional<struct stat>& before) {
     Temporary temporary(real, 0666);
@@ -150,7 +143,6 @@ void replace(const path& target, const path& real, std::string_view bytes,
         error = temporary.rename_to(real);
     if (error != 0)
         refuse_by_errno(target, "cannot be written", error);
-    flush_folder(folder_of(real));
 }
 
 bool can_be_replaced(const struct stat& status) { return S_ISREG(status.st_mode); }

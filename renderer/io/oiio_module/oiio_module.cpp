@@ -112,7 +112,7 @@ void decode(const OiioDecodeRequest& request, OiioAllocate allocate, void* conte
     if (!pixels)
         fail("refused");
     require(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels), *input);
-    // Of a truncated TIFF, 2.4 says that it was read, and leaves the reason behind.
+    // Of a truncated TIFF or JPEG, 2.4 says that it was read, and leaves the reason behind.
     const std::string problem = input->geterror();
     if (!problem.empty())
         fail(problem);

@@ -80,6 +80,15 @@ TEST(ReadImage, DamagedPngChunksAreRefusedAndNothingElseIsPrinted) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+TEST(ReadImage, EndOfAThumbnailIsNotTheEndOfATruncatedJpeg) {
+    const std::string whole = encoded(ImageFormat::jpeg);
+    const std::string thumbnail("\xff\xe1\x00\x04\xff\xd9",
+                                6); // a segment with an end marker in it
+    const std::string start = whole.substr(0, 2) + thumbnail;
+    EXPECT_EQ(read_image(store("a.jpg", start + whole.substr(2))).width, 64);
+    EXPECT_NE(refusal(store("a.jpg", start + whole.substr(2, whole.size() / 2))), "");
+}
+
 TEST(ReadImage, BytesAfterTheEndOfAJpegAreAllowed) {
     const Image image = read_image(store("a.jpg", encoded(ImageFormat::jpeg) + "trailer"));
     EXPECT_EQ(image.width, 64);
