@@ -47,8 +47,9 @@ const XmlNode& LoadContext::target_of(const XmlNode& reference) const {
     if (found != ids_.end())
         return *found->second;
     std::vector<std::string_view> names;
-    for (const auto& [name, node] : ids_)
-        names.push_back(name);
+    if (ids_.size() <= 10000) // a suggestion must not take seconds
+        for (const auto& [name, node] : ids_)
+            names.push_back(name);
     std::sort(names.begin(), names.end()); // the same message in every run
     reference.refuse(id, fmt::format("reference to nothing (got '{}', expected the id of an "
                                      "element){}",
@@ -56,8 +57,9 @@ const XmlNode& LoadContext::target_of(const XmlNode& reference) const {
 }
 
 std::filesystem::path LoadContext::file(const XmlNode& node, const XmlAttribute& value) const {
-    std::vector<std::filesystem::path> folders = document_.folders;
-    folders.insert(folders.begin(), std::filesystem::path(node.file->file).parent_path());
+    std::vector<std::filesystem::path> folders{
+        std::filesystem::path(node.file->file).parent_path()};
+    folders.insert(folders.end(), document_.folders.begin(), document_.folders.end());
     if (const auto found = find_file(value.value, folders))
         return *found;
     throw SceneError(ErrorKind::mesh, node.location(value),

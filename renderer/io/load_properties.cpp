@@ -11,13 +11,14 @@
 #include <array>
 #include <fmt/format.h>
 #include <limits>
+#include <unordered_set>
 
 namespace plumb {
 namespace {
 
-constexpr std::array<std::string_view, 11> property_elements{
-    "float", "integer", "boolean",  "string", "point",    "vector",
-    "rgb",   "srgb",    "spectrum", "color",  "transform"};
+constexpr std::array<std::string_view, 12> property_elements{
+    "float", "integer", "boolean",  "string", "point",     "vector",
+    "rgb",   "srgb",    "spectrum", "color",  "transform", "blackbody"};
 
 template <class Names> bool contains(const Names& names, std::string_view name) {
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
@@ -61,9 +62,11 @@ std::string snake_case(std::string_view name) {
 
 Properties::Properties(LoadContext& context, const XmlNode& node) : context_(context), node_(node) {
     node.allow_only({"type", "id", "name"});
+    entries_.reserve(node.children.size());
+    std::unordered_set<std::string> names;
     for (const XmlNode& child : node.children) {
         Entry entry = make_entry(child);
-        if (!entry.name.empty() && peek(entry.name))
+        if (!entry.name.empty() && !names.insert(entry.name).second)
             child.refuse(child.require("name"),
                          fmt::format("property '{}' of {} given twice (first at {})", entry.name,
                                      title(), to_string(peek(entry.name)->element->location())));
@@ -208,22 +211,22 @@ Vec3 Properties::point(std::string_view name, Vec3 fallback) {
 
 Rgb Properties::unsupported_colour(const Entry& entry, Rgb fallback) {
     const XmlNode& object = *entry.object;
-    const std::string type(object.value_or_empty("type"));
+    const bool wavelengths = object.name == "spectrum" && object.find("value");
+    const std::string_view kind = object.value_or_empty("type");
+    std::string source = fmt::format("<{}>", object.name);
+    if (wavelengths)
+        source = "a spectrum of wavelengths";
+    else if (!kind.empty())
+        source = fmt::format("{} '{}'", object.name, kind);
     const std::string what =
-        object.name == "spectrum"
-            ? fmt::format("spectrum '{}' of {} is not supported yet (supported: one value)",
-                          entry.name, title())
-            : fmt::format("texture '{}' as '{}' of {} is not supported yet (supported: rgb, srgb, "
-                          "spectrum with one value)",
-                          type, entry.name, title());
-    if (object.name == "spectrum" && object.find("value")) {
-        const float mean = mean_of_spectrum(object);
-        context_.unsupported(*entry.element, what, fmt::format("taken as its mean {}", mean));
-        return {mean, mean, mean};
-    }
+        fmt::format("{} as '{}' of {} is not supported yet (supported: rgb, srgb, spectrum with "
+                    "one value)",
+                    source, entry.name, title());
+    const float mean = wavelengths && context_.lenient() ? mean_of_spectrum(object) : 0;
+    const Rgb colour = wavelengths ? Rgb{mean, mean, mean} : fallback;
     context_.unsupported(*entry.element, what,
-                         fmt::format("taken as {} {} {}", fallback.r, fallback.g, fallback.b));
-    return fallback;
+                         fmt::format("taken as {} {} {}", colour.r, colour.g, colour.b));
+    return colour;
 }
 
 Rgb Properties::colour(std::string_view name, Rgb fallback, float lowest, float highest) {
@@ -231,7 +234,9 @@ Rgb Properties::colour(std::string_view name, Rgb fallback, float lowest, float 
     if (!element)
         return fallback;
     const Entry& entry = *peek(name);
-    const bool object = entry.object->name == "texture" || element->find("type");
+    const std::string_view kind = entry.object->name;
+    const bool object = kind == "texture" || kind == "blackbody" || element->find("type") ||
+                        element->find("filename");
     if (!object)
         take(name, {"rgb", "srgb", "color", "spectrum", "float"});
     const auto parsed = object ? std::nullopt : parse_colour(*element);
@@ -268,9 +273,13 @@ std::vector<const XmlNode*> Properties::objects(std::string_view element) {
 }
 
 void Properties::changes_no_pixel(std::initializer_list<std::string_view> names) {
-    for (const std::string_view name : names)
-        if (const XmlNode* element = entry_element(name))
-            context_.ignore(*element, fmt::format("'{}' of {} changes no pixel", name, title()));
+    known_.insert(known_.end(), names.begin(), names.end());
+    for (Entry& entry : entries_)
+        if (!entry.used && contains(names, entry.name)) {
+            entry.used = true;
+            context_.ignore(*entry.element,
+                            fmt::format("'{}' of {} changes no pixel", entry.name, title()));
+        }
 }
 
 void Properties::not_supported(std::initializer_list<std::string_view> names) {

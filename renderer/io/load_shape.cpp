@@ -3,6 +3,8 @@
 
 #include "renderer/io/load_emitter.h"
 #include "renderer/io/load_properties.h"
+#include "renderer/io/read_obj.h"
+#include "renderer/io/read_ply.h"
 #include "renderer/scene/shapes.h"
 
 #include <algorithm>
@@ -13,11 +15,6 @@
 #include <optional>
 
 namespace plumb {
-
-// Of the mesh readers.
-Mesh read_obj(const std::filesystem::path& file, std::vector<std::string>& warnings);
-Mesh read_ply(const std::filesystem::path& file, std::vector<std::string>& warnings);
-
 namespace {
 
 /// The factor of a transform that keeps spheres spheres; nothing for any other.

@@ -77,9 +77,10 @@ Transform scale(const XmlNode& element) {
     const auto s = parse_triple(element, 1);
     const Transform transform = Transform::scale(s[0], s[1], s[2]);
     if (!transform.inverse())
-        element.refuse(fmt::format("scale by zero (got '{} {} {}', expected an invertible "
-                                   "transform)",
-                                   s[0], s[1], s[2]));
+        element.refuse(
+            fmt::format("scale without an inverse (got '{} {} {}', expected an invertible "
+                        "transform)",
+                        s[0], s[1], s[2]));
     return transform;
 }
 

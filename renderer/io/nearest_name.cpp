@@ -35,6 +35,10 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
     if (name.size() > longest)
         return nearest;
     for (const std::string_view candidate : candidates) {
+        // The lengths alone give a lower bound, which spares most of a long list.
+        const std::size_t longer = std::max(name.size(), candidate.size());
+        if (longer - std::min(name.size(), candidate.size()) >= smallest)
+            continue;
         const std::size_t distance = edit_distance(name, candidate);
         if (distance < smallest) {
             smallest = distance;

@@ -46,7 +46,7 @@ class Linter {
         if (depth_ > 0)
             truncated();
         if (!seen_root_)
-            xml_.refuse(text_.empty() ? std::string::npos : 0,
+            xml_.refuse(0,
                         "no XML element in the file (expected <scene version=\"3.0.0\">)");
     }
 
@@ -142,6 +142,9 @@ class Linter {
         if (depth_ == open_.size())
             refuse_element(
                 fmt::format("elements nested too deeply (expected at most {})", max_xml_depth));
+        if (++elements_ > max_xml_elements)
+            refuse_element(
+                fmt::format("too many elements (expected at most {})", max_xml_elements));
         seen_root_ = true;
         open_[depth_++] = {element, start};
         attributes();
@@ -232,6 +235,7 @@ class Linter {
     std::size_t position_ = 0;
     std::array<OpenElement, max_xml_depth> open_{};
     std::size_t depth_ = 0;
+    std::size_t elements_ = 0;
     bool seen_root_ = false;
 };
 

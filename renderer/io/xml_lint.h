@@ -5,9 +5,10 @@
 
 namespace plumb {
 
-inline constexpr std::size_t max_xml_depth = 64;          ///< elements inside each other
-inline constexpr std::size_t max_xml_attributes = 64;     ///< of one element
-inline constexpr std::size_t max_xml_value = 1024 * 1024; ///< bytes of one attribute
+inline constexpr std::size_t max_xml_depth = 64;           ///< elements inside each other
+inline constexpr std::size_t max_xml_elements = 1'000'000; ///< of one file
+inline constexpr std::size_t max_xml_attributes = 64;      ///< of one element
+inline constexpr std::size_t max_xml_value = 1024 * 1024;  ///< bytes of one attribute
 
 /// One pass over the text, without recursion and with memory for the open elements only. Throws
 /// SceneError(scene) at the place: truncated or mismatched tags, no or several roots, an attribute

@@ -11,8 +11,9 @@
 namespace plumb {
 namespace {
 
-/// Recursive: lint_xml has limited the depth.
-XmlNode convert(const pugi::xml_node& from, const XmlText& xml) {
+/// Recursive: lint_xml has limited the depth. Frees pugixml's nodes on the way, so that no two
+/// whole trees stand in memory.
+XmlNode convert(pugi::xml_node from, const XmlText& xml) {
     XmlNode node;
     node.file = &xml;
     node.name = from.name();
@@ -29,8 +30,10 @@ XmlNode convert(const pugi::xml_node& from, const XmlText& xml) {
     const auto children = from.children();
     node.children.reserve(
         static_cast<std::size_t>(std::distance(children.begin(), children.end())));
-    for (const pugi::xml_node& child : children)
+    while (const pugi::xml_node child = from.first_child()) {
         node.children.push_back(convert(child, xml));
+        from.remove_child(child);
+    }
     return node;
 }
 

@@ -60,8 +60,8 @@ void append_utf8(std::string& out, unsigned code) {
     }
 }
 
-/// `bytes` includes the byte order mark. An unpaired surrogate becomes a NUL, refused later.
-std::string utf16_to_utf8(std::string_view bytes, bool big_endian) {
+/// `bytes` includes the byte order mark.
+std::string utf16_to_utf8(std::string_view bytes, bool big_endian, const XmlText& where) {
     const auto unit = [&](std::size_t i) {
         const unsigned first = byte_at(bytes, i), second = byte_at(bytes, i + 1);
         return big_endian ? (first << 8) | second : (second << 8) | first;
@@ -72,9 +72,11 @@ std::string utf16_to_utf8(std::string_view bytes, bool big_endian) {
         unsigned code = unit(i);
         if (code >= 0xD800 && code < 0xE000) {
             const unsigned low = i + 3 < bytes.size() ? unit(i + 2) : 0;
-            const bool pair = code < 0xDC00 && low >= 0xDC00 && low < 0xE000;
-            code = pair ? 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00) : 0;
-            i += pair ? 2 : 0;
+            if (code >= 0xDC00 || low < 0xDC00 || low >= 0xE000)
+                where.refuse(std::string::npos,
+                             fmt::format("bad UTF-16 (got an unpaired surrogate at byte {})", i));
+            code = 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00);
+            i += 2;
         }
         append_utf8(out, code);
     }
@@ -87,7 +89,7 @@ std::string to_utf8(std::string bytes, const XmlText& where) {
         if (bytes.size() % 2 != 0)
             where.refuse(std::string::npos,
                          fmt::format("UTF-16 text of odd length (got {} bytes)", bytes.size()));
-        return utf16_to_utf8(bytes, big);
+        return utf16_to_utf8(bytes, big, where);
     }
     if (bytes.starts_with("\xEF\xBB\xBF"))
         bytes.erase(0, 3);
@@ -95,20 +97,22 @@ std::string to_utf8(std::string bytes, const XmlText& where) {
 }
 
 void index_lines(XmlText& xml) {
-    const std::size_t lines =
-        static_cast<std::size_t>(std::count(xml.text.begin(), xml.text.end(), '\n'));
-    xml.line_starts.reserve(lines + 1);
+    const std::string_view text = xml.text;
     xml.line_starts.push_back(0);
-    for (std::size_t i = 0; i < xml.text.size(); ++i)
-        if (xml.text[i] == '\n')
-            xml.line_starts.push_back(static_cast<std::uint32_t>(i + 1));
+    for (std::size_t end = text.find('\n'); end != std::string_view::npos;
+         end = text.find('\n', end + 1))
+        xml.line_starts.push_back(static_cast<std::uint32_t>(end + 1));
 }
 
 void check_characters(const XmlText& xml) {
     for (std::size_t i = 0; i < xml.text.size();) {
         const unsigned c = byte_at(xml.text, i);
+        if (c >= 0x20 && c < 0x80) { // nearly always
+            ++i;
+            continue;
+        }
         if (c < 0x20 && c != '\t' && c != '\n' && c != '\r')
-            xml.refuse(i, c == 0 ? "NUL byte in XML (is this a binary file?)"
+            xml.refuse(i, c == 0 ? "NUL byte in XML (binary, or UTF-16 without its mark?)"
                                  : fmt::format("control character in XML (got 0x{:02x})", c));
         const std::size_t length = utf8_length(xml.text, i);
         if (length == 0)
