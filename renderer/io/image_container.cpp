@@ -36,6 +36,23 @@ std::uint32_t crc32(std::string_view bytes) {
     return ~crc;
 }
 
+/// Width, height, bit depth and colour type (ISO/IEC 15948, table 11.1).
+void check_png_header(std::string_view data) {
+    constexpr std::size_t header_bytes = 13;
+    if (data.size() != header_bytes || big_endian(data) == 0 || big_endian(data.substr(4)) == 0)
+        throw std::runtime_error("the PNG has a bad header");
+    const std::uint32_t depth = byte_at(data, 8), colour = byte_at(data, 9);
+    const bool bytes = depth == 8 || depth == 16;
+    const bool bits = depth == 1 || depth == 2 || depth == 4;
+    const bool known = colour == 0   ? bits || bytes
+                       : colour == 3 ? bits || depth == 8
+                                     : bytes && (colour == 2 || colour == 4 || colour == 6);
+    if (!known)
+        throw std::runtime_error("the PNG has a bad header (got bit depth " +
+                                 std::to_string(depth) + " with colour type " +
+                                 std::to_string(colour) + ")");
+}
+
 /// Walks the chunks (length, name, data, CRC) from IHDR to IEND.
 void check_png(std::string_view file) {
     constexpr std::string_view signature("\x89PNG\r\n\x1a\n", 8);
@@ -43,6 +60,7 @@ void check_png(std::string_view file) {
     if (!file.starts_with(signature))
         throw std::runtime_error("the content is no PNG");
     file.remove_prefix(signature.size());
+    bool pixels = false;
     for (bool first = true;; first = false) {
         if (file.size() < frame || big_endian(file) > file.size() - frame)
             throw std::runtime_error("the PNG is truncated");
@@ -52,6 +70,11 @@ void check_png(std::string_view file) {
             throw std::runtime_error("the PNG is damaged: wrong check sum of a chunk");
         if (first != (name == "IHDR"))
             throw std::runtime_error("the PNG does not begin with its header");
+        if (first)
+            check_png_header(file.substr(8, length));
+        pixels = pixels || name == "IDAT";
+        if (name == "IEND" && !pixels)
+            throw std::runtime_error("the PNG has no pixels");
         if (name == "IEND")
             return;
         file.remove_prefix(frame + length);

@@ -80,6 +80,24 @@ TEST(ReadImage, DamagedPngChunksAreRefusedAndNothingElseIsPrinted) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+TEST(ReadImage, PngWithBadHeaderOrNoPixelsIsRefusedAndNothingElseIsPrinted) {
+    // The check sums are right; zlib's crc32 gave them.
+    const std::string signature("\x89PNG\r\n\x1a\n", 8);
+    const std::string end("\0\0\0\0IEND\xae\x42\x60\x82", 12);
+    const std::string depth_3("\0\0\0\x0dIHDR\0\0\0\1\0\0\0\1\3\0\0\0\0"
+                              "\115\256\252\104",
+                              25);
+    const std::string grey_8("\0\0\0\x0dIHDR\0\0\0\1\0\0\0\1\x08\0\0\0\0"
+                             "\072\176\233\125",
+                             25);
+    testing::internal::CaptureStderr();
+    EXPECT_NE(refusal(store("a.png", signature + depth_3 + end)).find("bit depth 3"),
+              std::string::npos);
+    EXPECT_NE(refusal(store("a.png", signature + grey_8 + end)).find("no pixels"),
+              std::string::npos);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(ReadImage, EndOfAThumbnailIsNotTheEndOfATruncatedJpeg) {
     const std::string whole = encoded(ImageFormat::jpeg);
     const std::string thumbnail("\xff\xe1\x00\x04\xff\xd9",
