@@ -1,3 +1,4 @@
+/// \file  The one place that knows every kind of Intersector.
 #include "accel/embree/embree_intersector.h"
 #include "accel/intersector.h"
 #include "accel/naive/naive_intersector.h"
