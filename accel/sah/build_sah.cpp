@@ -65,8 +65,6 @@ class Builder {
         tree_.primitive_count = refs.size();
         tree_.skipped_count = geometry_.primitive_count() - refs.size();
         tree_.sphere_geometry = geometry_.sphere_geometry();
-        tree_.nodes.reserve(refs.size() / 3 + 1);
-        tree_.blocks.reserve(refs.size() / 4 + 1);
         const PrimitiveRange all(refs);
         const ChildRef root = refs.empty() ? ChildRef::triangle_leaf(0, 0) : append(all, 0);
         if (root.is_leaf()) {
@@ -75,6 +73,9 @@ class Builder {
             set_child(node, 0, all.bounds, root);
             set_child(node, 1, Bounds{}, ChildRef::triangle_leaf(0, 0));
         }
+        tree_.nodes.shrink_to_fit();
+        tree_.blocks.shrink_to_fit();
+        tree_.spheres.shrink_to_fit();
         const double root_area = surface_area(all.bounds);
         tree_.sah_cost = root_area > 0 ? cost_ / root_area : 0;
     }
@@ -154,6 +155,10 @@ class Builder {
         for (int i = 0; i < 3; ++i)
             for (int axis = 0; axis < 3; ++axis)
                 block.vertex[i][axis][lane] = corners[i][axis];
+        for (int axis = 0; axis < 3; ++axis) {
+            block.bounds[0][axis][lane] = ref.bounds.lower[axis];
+            block.bounds[1][axis][lane] = ref.bounds.upper[axis];
+        }
         block.geometry[lane] = ref.geometry;
         block.primitive[lane] = ref.primitive;
     }

@@ -4,8 +4,8 @@
 /// primitive's own box (settle), so the hit returned is the same for any tree and any order.
 #pragma once
 
+#include "accel/sah/block_test.h"
 #include "accel/sah/child_test.h"
-#include "accel/sah/leaf_test.h"
 
 namespace plumb {
 namespace detail {
@@ -20,44 +20,33 @@ RT_HD inline void keep_closer(const PrimitiveHit& hit, std::uint32_t geometry,
                               std::uint32_t primitive, Hit& best) {
     const bool lower_id =
         geometry < best.geometry || (geometry == best.geometry && primitive < best.primitive);
-    if (hit.t < best.t || lower_id)
+    if (hit.t < best.t || (hit.t == best.t && lower_id))
         best = {hit.t, hit.u, hit.v, geometry, primitive, invalid_id};
 }
 
-/// Requires hit.t <= best.t of every hit it keeps, as the primitive tests guarantee.
-template <TriangleTest Test>
-RT_HD inline void closest_in_leaf(const SahView& view, ChildRef leaf, const PreparedRay& ray,
-                                  Hit& best) {
+/// Calls visit(hit, geometry, primitive) for hits of a leaf's spheres until it returns true.
+template <class Visit>
+RT_HD inline bool visit_spheres(const SahView& view, ChildRef leaf, const PreparedRay& ray,
+                                float tmax, Visit&& visit) {
     PrimitiveHit hit;
-    if (leaf.has_spheres()) {
-        for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count(); ++i)
-            if (intersect_sphere(ray, view.spheres[i].sphere, best.t, hit))
-                keep_closer(hit, view.sphere_geometry, view.spheres[i].primitive, best);
-        return;
-    }
-    const TriangleBlock& block = view.blocks[leaf.first];
-    any_candidate<Test>(ray, block, leaf.count(), [&](std::uint32_t lane) {
-        if (intersect_triangle<Test>(ray, block.corner(0, lane), block.corner(1, lane),
-                                     block.corner(2, lane), best.t, hit))
-            keep_closer(hit, block.geometry[lane], block.primitive[lane], best);
-        return false;
-    });
+    for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count(); ++i)
+        if (intersect_sphere(ray, view.spheres[i].sphere, tmax, hit) &&
+            visit(hit, view.sphere_geometry, view.spheres[i].primitive))
+            return true;
+    return false;
 }
 
-template <TriangleTest Test>
-RT_HD inline bool any_in_leaf(const SahView& view, ChildRef leaf, const PreparedRay& ray) {
-    PrimitiveHit hit;
-    if (leaf.has_spheres()) {
-        for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count(); ++i)
-            if (intersect_sphere(ray, view.spheres[i].sphere, ray.tmax, hit))
-                return true;
-        return false;
-    }
+/// The same for any leaf.
+template <TriangleTest Test, class Visit>
+RT_HD inline bool visit_leaf(const SahView& view, ChildRef leaf, const PreparedRay& ray, float tmax,
+                             Visit&& visit) {
+    if (leaf.has_spheres())
+        return visit_spheres(view, leaf, ray, tmax, visit);
     const TriangleBlock& block = view.blocks[leaf.first];
-    return any_candidate<Test>(ray, block, leaf.count(), [&](std::uint32_t lane) {
-        return intersect_triangle<Test>(ray, block.corner(0, lane), block.corner(1, lane),
-                                        block.corner(2, lane), ray.tmax, hit);
-    });
+    return visit_hits<Test>(ray, block, leaf.count(), tmax,
+                            [&](std::uint32_t lane, const PrimitiveHit& hit) {
+                                return visit(hit, block.geometry[lane], block.primitive[lane]);
+                            });
 }
 
 } // namespace detail
@@ -68,7 +57,7 @@ template <TriangleTest Test>
     if (!is_valid(ray))
         return {};
     const PreparedRay prepared(ray);
-    const ChildTest test(prepared);
+    ChildTest test(prepared);
     detail::StackEntry stack[sah_max_depth];
     int size = 0;
     Hit best;
@@ -77,18 +66,31 @@ template <TriangleTest Test>
     for (;;) {
         if (!current.is_leaf()) {
             const SahNode& node = view.nodes[current.first];
-            const ChildOverlap overlap = test(node, best.t);
+            const ChildOverlap overlap = test(node);
             if (overlap.mask != 0) {
-                // Both: the nearer one now, the other later. One: that one.
-                const bool both = overlap.mask == 3;
-                const bool second = both ? overlap.near[1] < overlap.near[0] : overlap.mask == 2;
-                stack[size] = {node.child[second ? 0 : 1], overlap.near[second ? 0 : 1]};
-                size += both ? 1 : 0;
-                current = node.child[second ? 1 : 0];
+                // The nearer child now, the other later. Branches, not selects: a guessed child is
+                // fetched before the test of its box is done, worth a third of the speed.
+                if (overlap.mask == 1) {
+                    current = node.child[0];
+                } else if (overlap.mask == 2) {
+                    current = node.child[1];
+                } else if (overlap.near[1] < overlap.near[0]) {
+                    stack[size++] = {node.child[0], overlap.near[0]};
+                    current = node.child[1];
+                } else {
+                    stack[size++] = {node.child[1], overlap.near[1]};
+                    current = node.child[0];
+                }
                 continue;
             }
         } else {
-            detail::closest_in_leaf<Test>(view, current, prepared, best);
+            const auto keep = [&](const PrimitiveHit& hit, std::uint32_t geometry,
+                                  std::uint32_t primitive) {
+                detail::keep_closer(hit, geometry, primitive, best);
+                return false;
+            };
+            detail::visit_leaf<Test>(view, current, prepared, best.t, keep);
+            test.limit(best.t);
         }
         do {
             if (size == 0) {
@@ -115,14 +117,16 @@ template <TriangleTest Test>
     for (;;) {
         if (!current.is_leaf()) {
             const SahNode& node = view.nodes[current.first];
-            const unsigned mask = test(node, ray.tmax).mask;
+            const unsigned mask = test(node).mask;
             if (mask != 0) {
-                stack[size] = node.child[1];
-                size += mask == 3 ? 1 : 0;
-                current = node.child[mask == 2 ? 1 : 0];
+                if (mask == 3)
+                    stack[size++] = node.child[1];
+                current = mask == 2 ? node.child[1] : node.child[0];
                 continue;
             }
-        } else if (detail::any_in_leaf<Test>(view, current, prepared)) {
+        } else if (detail::visit_leaf<Test>(
+                       view, current, prepared, ray.tmax,
+                       [](const PrimitiveHit&, std::uint32_t, std::uint32_t) { return true; })) {
             return true;
         }
         if (size == 0)
