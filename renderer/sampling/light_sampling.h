@@ -47,25 +47,29 @@ RT_HD inline bool in_front(const Light& light, Vec3 position) {
 }
 
 RT_HD inline SphericalTriangle spherical_triangle(const Light& light, Vec3 position) {
-    const Vec3 a = light.origin - position;
-    return {a, a + light.edge1, a + light.edge2};
+    return {light.origin - position, light.edge1, light.edge2};
 }
 
 RT_HD inline SphericalRectangle spherical_rectangle(const Light& light, Vec3 position) {
     return {light.origin - position, light.edge1, light.edge2, light.normal};
 }
 
-/// Fills in a sample at origin + s edge1 + t edge2.
-RT_HD inline LightSample flat_sample(const Light& light, Vec3 position, Vec2 st) {
+/// Fills in a sample at origin + s edge1 + t edge2, chosen uniformly over `solid_angle`, or over
+/// the area if that is 0. Empty if the receiver is that very point.
+RT_HD inline LightSample flat_sample(const Light& light, Vec3 position, Vec2 st,
+                                     float solid_angle) {
     const Vec3 e1 = light.edge1 * st.x, e2 = light.edge2 * st.y;
     const Vec3 error = rounding_bound(7) * (abs(light.origin) + abs(e1) + abs(e2));
     const float slack = plane_slack(light.edge1, light.edge2, 2 * light.area);
+    const Vec3 point = light.origin + e1 + e2, to_light = point - position;
+    if (!(dot(to_light, to_light) > 0))
+        return {};
     LightSample s;
-    const Vec3 point = light.origin + e1 + e2;
-    s.wi = normalize(point - position);
+    s.wi = normalize(to_light);
     s.target = point + light.normal * (dot(abs(light.normal), error) + slack);
     s.radiance = light.emission;
-    s.pdf = area_to_solid_angle(point - position, light.normal, light.area);
+    s.pdf =
+        solid_angle > 0 ? 1 / solid_angle : area_to_solid_angle(to_light, light.normal, light.area);
     return s;
 }
 
@@ -75,19 +79,10 @@ RT_HD inline LightSample sample_triangle_light(const Light& light, Vec3 position
         return {};
     if (method == LightSampling::solid_angle) {
         const SphericalTriangle triangle = spherical_triangle(light, position);
-        if (triangle.solid_angle() >= min_solid_angle) {
-            // Where the direction meets the plane: barycentrics after Möller and Trumbore.
-            const Vec3 d = triangle.sample(u);
-            const Vec3 p = cross(d, light.edge2), o = position - light.origin;
-            const float det = dot(light.edge1, p);
-            const float s = clamp(dot(o, p) / det, 0, 1);
-            const float t = clamp(dot(d, cross(o, light.edge1)) / det, 0, 1 - s);
-            LightSample sample = flat_sample(light, position, {s, t});
-            sample.pdf = 1 / triangle.solid_angle();
-            return sample;
-        }
+        if (triangle.solid_angle() >= min_solid_angle)
+            return flat_sample(light, position, triangle.sample(u), triangle.solid_angle());
     }
-    return flat_sample(light, position, sample_triangle(u));
+    return flat_sample(light, position, sample_triangle(u), 0);
 }
 
 RT_HD inline LightSample sample_rectangle_light(const Light& light, Vec3 position, Vec2 u,
@@ -96,13 +91,10 @@ RT_HD inline LightSample sample_rectangle_light(const Light& light, Vec3 positio
         return {};
     if (method == LightSampling::solid_angle) {
         const SphericalRectangle rectangle = spherical_rectangle(light, position);
-        if (rectangle.solid_angle() >= min_solid_angle) {
-            LightSample sample = flat_sample(light, position, rectangle.sample(u));
-            sample.pdf = 1 / rectangle.solid_angle();
-            return sample;
-        }
+        if (rectangle.solid_angle() >= min_solid_angle)
+            return flat_sample(light, position, rectangle.sample(u), rectangle.solid_angle());
     }
-    return flat_sample(light, position, u);
+    return flat_sample(light, position, u, 0);
 }
 
 /// Squared sine of the half angle of the cone around a sphere; > 1 inside.
@@ -110,13 +102,16 @@ RT_HD inline float sphere_sin2(const Light& light, Vec3 to_center) {
     return light.radius * light.radius / dot(to_center, to_center);
 }
 
-/// Finishes a sample at the point center + radius * out.
+/// Finishes a sample at the point center + radius * out; empty if the receiver is that very point.
 RT_HD inline LightSample sphere_sample(const Light& light, Vec3 position, Vec3 out, float pdf) {
     const Vec3 arm = out * light.radius;
     const Vec3 error = rounding_bound(6) * (abs(light.origin) + abs(arm));
     const float push = dot(abs(out), error);
+    const Vec3 to_light = light.origin + arm - position;
+    if (!(dot(to_light, to_light) > 0))
+        return {};
     LightSample s;
-    s.wi = normalize(light.origin + arm - position);
+    s.wi = normalize(to_light);
     s.target = light.origin + arm + out * (light.inside_out ? -push : push);
     s.radiance = light.emission;
     s.pdf = pdf;

@@ -4,79 +4,129 @@
 /// EGSR 2013. The solid angle itself comes from the triple products of its two triangles (A. Van
 /// Oosterom, J. Strackee 1983), which keeps its relative accuracy for small rectangles, where the
 /// sum of four angles minus 2 pi cancels.
+///
+/// Close to the plane of the rectangle and beside long strips both cancel in float (a strip of
+/// 1e-4 : 1 seen from its own width: 11 times the solid angle); such views are computed in double.
 #pragma once
 
-#include "accel/math/elementary.h"
+#include "renderer/sampling/spherical_triangle.h"
 
 namespace plumb {
 
-/// A rectangle seen from a point, in the frame of its edges.
+namespace detail {
+
+/// A rectangle seen from the origin: x0 <= x <= x1, y0 <= y <= y1, z = z0 < 0.
+template <class Real> struct RectangleView {
+    Real x0 = 0, y0 = 0, x1 = 0, y1 = 0, z0 = 0;
+
+    /// Steradians. `sound`: whether no sum lost more than two digits.
+    RT_HD float solid_angle(bool& sound) const {
+        const Real z2 = z0 * z0;
+        const Real la = std::sqrt(x0 * x0 + y0 * y0 + z2), lb = std::sqrt(x1 * x1 + y0 * y0 + z2);
+        const Real lc = std::sqrt(x1 * x1 + y1 * y1 + z2), ld = std::sqrt(x0 * x0 + y1 * y1 + z2);
+        const Real ab = x0 * x1 + y0 * y0 + z2, bc = x1 * x1 + y0 * y1 + z2;
+        const Real cd = x1 * x0 + y1 * y1 + z2, da = x0 * x0 + y1 * y0 + z2;
+        const Real ac = x0 * x1 + y0 * y1 + z2;
+        const Real volume = -z0 * (x1 - x0) * (y1 - y0);
+        const Real product_abc = la * lb * lc, product_acd = la * lc * ld;
+        const Real abc = product_abc + ab * lc + bc * la + ac * lb;
+        const Real acd = product_acd + ac * ld + cd * la + da * lc;
+        constexpr Real lost = 0.01f;
+        sound = abc > lost * product_abc && acd > lost * product_acd;
+        // tan of half of each triangle's solid angle is volume / abc and volume / acd.
+        return 2 *
+               (atan2(to_float(volume), to_float(abc)) + atan2(to_float(volume), to_float(acd)));
+    }
+
+    /// Point (x, y) of the rectangle; its direction is uniform over the solid angle for u uniform
+    /// in [0,1)^2. Returned as fractions of the edges.
+    RT_HD Vec2 sample(Vec2 u, float solid_angle) const {
+        const Real one = 1, z2 = z0 * z0;
+        // Cosines of the edges' normals with the z axis, and the two angles at x = x0 (eq. 4, 5).
+        const Real ry0 = 1 / std::sqrt(z2 + y0 * y0), ry1 = 1 / std::sqrt(z2 + y1 * y1);
+        const Real rx0 = 1 / std::sqrt(z2 + x0 * x0);
+        const Real b0 = -y0 * ry0, b1 = y1 * ry1, b3 = -x0 * rx0;
+        const Real cos2 = -b1 * b3, cos3 = -b3 * b0;
+        const Real sin2 = -z0 * std::sqrt(z2 + x0 * x0 + y1 * y1) * rx0 * ry1;
+        const Real sin3 = -z0 * std::sqrt(z2 + x0 * x0 + y0 * y0) * rx0 * ry0;
+        // au = u S + 2 pi - g2 - g3: sine and cosine by addition.
+        const SinCosOf<Real> part = sincos_unit<Real>(u.x * solid_angle);
+        const Real cos_k = cos2 * cos3 - sin2 * sin3, sin_k = -(sin2 * cos3 + cos2 * sin3);
+        const Real cos_au = part.cos * cos_k - part.sin * sin_k;
+        const Real sin_au = part.sin * cos_k + part.cos * sin_k;
+        // cu = sign(fu) / sqrt(fu^2 + b0^2) with fu = (cos_au b0 - b1) / sin_au, times sin_au.
+        const Real numerator = cos_au * b0 - b1;
+        const Real sine2 = sin_au * sin_au;
+        const Real sum = numerator * numerator + b0 * b0 * sine2;
+        const Real cu2 = sum > 0 ? (sine2 < sum ? sine2 / sum : one) : one;
+        const Real rest = one - cu2;
+        const bool positive = (numerator > 0) == (sin_au > 0);
+        Real x = positive ? x1 : x0;
+        if (rest > 0)
+            x = limit((positive ? -z0 : z0) * std::sqrt(cu2 / rest), x0, x1);
+        const Real d2 = x * x + z2;
+        const Real h0 = y0 / std::sqrt(d2 + y0 * y0), h1 = y1 / std::sqrt(d2 + y1 * y1);
+        const Real share = u.y;
+        const Real h = h0 + share * (h1 - h0);
+        const Real h2 = h * h;
+        const Real y = h2 < 1 ? limit(h * std::sqrt(d2 / (1 - h2)), y0, y1) : y1;
+        return {to_float((x - x0) / (x1 - x0)), to_float((y - y0) / (y1 - y0))};
+    }
+
+    RT_HD static Real limit(Real v, Real low, Real high) {
+        return v < low ? low : v > high ? high : v;
+    }
+};
+
+} // namespace detail
+
+/// A rectangle seen from a point.
 class SphericalRectangle {
   public:
     /// `corner`: relative to the point. `edge1`, `edge2`: at right angles. `normal`: unit, either
     /// side. The point must not lie in the plane of the rectangle.
-    RT_HD SphericalRectangle(Vec3 corner, Vec3 edge1, Vec3 edge2, Vec3 normal)
-        : length1_(length(edge1)), length2_(length(edge2)), x_axis_(edge1 / length1_),
-          y_axis_(edge2 / length2_), z_axis_(normal) {
-        z0_ = dot(corner, normal);
-        if (z0_ > 0) { // z0 < 0 from here on
-            z_axis_ = -z_axis_;
-            z0_ = -z0_;
+    RT_HD SphericalRectangle(Vec3 corner, Vec3 edge1, Vec3 edge2, Vec3 normal) {
+        const float length1 = length(edge1), length2 = length(edge2);
+        near_.z0 = -std::fabs(dot(corner, normal));
+        near_.x0 = dot(corner, edge1) / length1;
+        near_.y0 = dot(corner, edge2) / length2;
+        near_.x1 = near_.x0 + length1;
+        near_.y1 = near_.y0 + length2;
+        solid_angle_ = near_.solid_angle(in_float_);
+        in_float_ = in_float_ && -near_.z0 > 0.01f * max(length1, length2);
+        if (!in_float_) {
+            exact_ = exact_view(corner, edge1, edge2);
+            bool sound = true;
+            solid_angle_ = exact_.solid_angle(sound);
         }
-        x0_ = dot(corner, x_axis_);
-        y0_ = dot(corner, y_axis_);
-        x1_ = x0_ + length1_;
-        y1_ = y0_ + length2_;
-        const Vec3 a{x0_, y0_, z0_}, b{x1_, y0_, z0_}, c{x1_, y1_, z0_}, d{x0_, y1_, z0_};
-        const float la = length(a), lb = length(b), lc = length(c), ld = length(d);
-        const float volume = -z0_ * length1_ * length2_;
-        const float ac = dot(a, c);
-        const float abc = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + ac * lb;
-        const float acd = la * lc * ld + ac * ld + dot(c, d) * la + dot(d, a) * lc;
-        // tan of half of each triangle's solid angle is volume / abc and volume / acd.
-        solid_angle_ = 2 * (atan2(volume, abc) + atan2(volume, acd));
     }
 
-    /// Steradians, in (0, 2 pi).
+    /// Steradians, in [0, 2 pi].
     [[nodiscard]] RT_HD float solid_angle() const { return solid_angle_; }
 
     /// Point (s, t) in [0,1]^2 of the rectangle: corner + s edge1 + t edge2. Its direction is
     /// uniform over the solid angle for u uniform in [0,1)^2.
     [[nodiscard]] RT_HD Vec2 sample(Vec2 u) const {
-        const float z2 = z0_ * z0_;
-        // Cosines of the edges' normals with the z axis, and the two angles at x = x0 (eq. 4, 5).
-        const float ry0 = 1 / std::sqrt(z2 + y0_ * y0_), ry1 = 1 / std::sqrt(z2 + y1_ * y1_);
-        const float rx0 = 1 / std::sqrt(z2 + x0_ * x0_);
-        const float b0 = -y0_ * ry0, b1 = y1_ * ry1, b3 = -x0_ * rx0;
-        const float cos2 = -b1 * b3, cos3 = -b3 * b0;
-        const float sin2 = -z0_ * std::sqrt(z2 + x0_ * x0_ + y1_ * y1_) * rx0 * ry1;
-        const float sin3 = -z0_ * std::sqrt(z2 + x0_ * x0_ + y0_ * y0_) * rx0 * ry0;
-        // au = u S + 2 pi - g2 - g3: sine and cosine by addition.
-        const SinCos part = sincos_radians(u.x * solid_angle_);
-        const float cos_k = cos2 * cos3 - sin2 * sin3, sin_k = -(sin2 * cos3 + cos2 * sin3);
-        const float cos_au = part.cos * cos_k - part.sin * sin_k;
-        const float sin_au = part.sin * cos_k + part.cos * sin_k;
-        // cu = sign(fu) / sqrt(fu^2 + b0^2) with fu = (cos_au b0 - b1) / sin_au, times sin_au.
-        const float numerator = cos_au * b0 - b1;
-        const float denominator2 = numerator * numerator + b0 * b0 * sin_au * sin_au;
-        const float positive = (numerator > 0) == (sin_au > 0) ? 1.0f : -1.0f;
-        const float cu2 = denominator2 > 0 ? min(1.0f, sin_au * sin_au / denominator2) : 1.0f;
-        const float rest = 1 - cu2;
-        const float x = rest > 0 ? clamp(-positive * std::sqrt(cu2 / rest) * z0_, x0_, x1_)
-                                 : (positive > 0 ? x1_ : x0_);
-        const float d2 = x * x + z2;
-        const float h0 = y0_ / std::sqrt(d2 + y0_ * y0_), h1 = y1_ / std::sqrt(d2 + y1_ * y1_);
-        const float h = h0 + u.y * (h1 - h0);
-        const float h2 = h * h;
-        const float y = h2 < 1 ? clamp(h * std::sqrt(d2 / (1 - h2)), y0_, y1_) : y1_;
-        return {(x - x0_) / length1_, (y - y0_) / length2_};
+        return in_float_ ? near_.sample(u, solid_angle_) : exact_.sample(u, solid_angle_);
     }
 
   private:
-    float length1_, length2_;
-    Vec3 x_axis_, y_axis_, z_axis_;
-    float x0_, y0_, x1_, y1_, z0_;
-    float solid_angle_;
+    RT_HD static detail::RectangleView<double> exact_view(Vec3 corner, Vec3 edge1, Vec3 edge2) {
+        const detail::Vec3d c(corner), e1(edge1), e2(edge2), n = cross(e1, e2);
+        const double length1 = std::sqrt(dot(e1, e1)), length2 = std::sqrt(dot(e2, e2));
+        detail::RectangleView<double> view;
+        view.z0 = -std::fabs(dot(c, n)) / std::sqrt(dot(n, n));
+        view.x0 = dot(c, e1) / length1;
+        view.y0 = dot(c, e2) / length2;
+        view.x1 = view.x0 + length1;
+        view.y1 = view.y0 + length2;
+        return view;
+    }
+
+    detail::RectangleView<float> near_;
+    detail::RectangleView<double> exact_; ///< where float will not do
+    bool in_float_ = true;
+    float solid_angle_ = 0;
 };
 
 } // namespace plumb

@@ -99,6 +99,45 @@ TEST(FlatLights, GiveLambertsPolygonIrradianceToTiltedReceivers) {
         }
 }
 
+/// Close to the plane of a light, to its edges and corners, and beside strips and slivers as wide
+/// as they are near: in float alone the solid angle of the strip of 1e-4 is 11 times too large.
+TEST(FlatLights, KeepTheirIrradianceWhereFloatCancels) {
+    const Vec3 tilted = normalize(Vec3{0.9f, -0.3f, 0.1f});
+    for (const float h : {1e-2f, 1e-3f, 1e-4f, 1e-5f}) {
+        const Light wide =
+            flat_light(LightKind::rectangle, {-0.75f, -0.5f, 0}, {0, 2, 0}, {2.5f, 0, 0});
+        const Light half =
+            flat_light(LightKind::triangle, {-0.75f, -0.5f, 0}, {0, 2, 0}, {2.5f, 0, 0});
+        const Light strip = flat_light(LightKind::rectangle, {-1.5f, 0, 0}, {0, h, 0}, {3, 0, 0});
+        const Light turned = flat_light(LightKind::rectangle, {-1.5f, h, 0}, {3, 0, 0}, {0, -h, 0});
+        const Light sliver =
+            flat_light(LightKind::triangle, {-1.5f, 0, 0}, {1.5f, h, 0}, {3, 0, 0});
+        const Light pointed = flat_light(LightKind::triangle, {1.5f, 0, 0}, {-3, 0, 0}, {-3, h, 0});
+        const struct {
+            const char* name;
+            const Light& light;
+            Vec3 position;
+        } cases[] = {{"under", wide, {0.3f, 0.2f, -h}},
+                     {"beside", wide, {1.75f + h, 0.2f, -h}},
+                     {"under the edge", wide, {1.75f, 0.2f, -h}},
+                     {"under the corner", wide, {-0.75f, -0.5f, -h}},
+                     {"under a triangle", half, {-0.2f, 0.2f, -h}},
+                     {"beside a triangle", half, {-0.75f - h, 0.2f, -h}},
+                     {"strip", strip, {0.2f, h / 2, -2 * h}},
+                     {"strip, turned", turned, {0.2f, h / 2, -2 * h}},
+                     {"sliver", sliver, {0.2f, h / 2, -2 * h}},
+                     {"sliver by its short edge", pointed, {-1.2f, h / 2, -2 * h}}};
+        for (const auto& c : cases)
+            for (const Vec3 normal : {Vec3{0, 0, 1}, tilted}) {
+                const double exact = exact_polygon(c.light, c.position, normal);
+                const MeanTest e =
+                    irradiance(c.light, c.position, normal, LightSampling::solid_angle, 40000);
+                EXPECT_LE(std::fabs(e.z(exact)), z_limit) << c.name << ' ' << h;
+                EXPECT_LT(sigma(e), normal == tilted ? 12 : 1.5) << c.name << ' ' << h;
+            }
+    }
+}
+
 /// Sphere light above the horizon: pi L (r/d)² cos.
 TEST(SphereLight, GivesItsClosedFormFromNearAndFar) {
     const Vec3 position{0.3f, 0.4f, -0.2f};
