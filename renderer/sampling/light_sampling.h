@@ -41,9 +41,12 @@ RT_HD inline float area_to_solid_angle(Vec3 to_light, Vec3 light_normal, float a
     return facing > 0 && area > 0 ? d2 * std::sqrt(d2) / (facing * area) : 0;
 }
 
-/// Whether the receiver is in front of a flat light.
+/// Whether the receiver is in front of a flat light by more than rounding can account for. Points
+/// of the light itself and of its plane get nothing from it; with a sign alone, half of a
+/// luminous wall's own points would see that wall fill their hemisphere.
 RT_HD inline bool in_front(const Light& light, Vec3 position) {
-    return dot(light.normal, position - light.origin) > 0;
+    const Vec3 error = rounding_bound(16) * (abs(light.origin) + abs(position));
+    return dot(light.normal, position - light.origin) > dot(abs(light.normal), error);
 }
 
 RT_HD inline SphericalTriangle spherical_triangle(const Light& light, Vec3 position) {
@@ -102,6 +105,16 @@ RT_HD inline float sphere_sin2(const Light& light, Vec3 to_center) {
     return light.radius * light.radius / dot(to_center, to_center);
 }
 
+/// Whether the receiver is inside of a sphere light. A sphere that shines inwards is seen from its
+/// own wall, whose points lie off it by rounding; they are inside.
+RT_HD inline bool inside_sphere(const Light& light, Vec3 to_center) {
+    const float sin2 = sphere_sin2(light, to_center);
+    if (!light.inside_out)
+        return !(sin2 < 1);
+    const float reach = max_component(abs(light.origin)) / light.radius;
+    return sin2 > 1 - rounding_bound(64) * (1 + reach);
+}
+
 /// Finishes a sample at the point center + radius * out; empty if the receiver is that very point.
 RT_HD inline LightSample sphere_sample(const Light& light, Vec3 position, Vec3 out, float pdf) {
     const Vec3 arm = out * light.radius;
@@ -121,8 +134,7 @@ RT_HD inline LightSample sphere_sample(const Light& light, Vec3 position, Vec3 o
 RT_HD inline LightSample sample_sphere_light(const Light& light, Vec3 position, Vec2 u,
                                              LightSampling method) {
     const Vec3 to_center = light.origin - position;
-    const float sin2 = sphere_sin2(light, to_center);
-    const bool inside = !(sin2 < 1);
+    const bool inside = inside_sphere(light, to_center);
     if (inside != light.inside_out)
         return {};
     const Vec3 uniform = sample_uniform_sphere(u).direction;
@@ -136,10 +148,12 @@ RT_HD inline LightSample sample_sphere_light(const Light& light, Vec3 position, 
         const float b = dot(to_center, uniform);
         const float c = dot(to_center, to_center) - light.radius * light.radius;
         const float t = b + std::sqrt(max(0.0f, b * b - c));
-        return sphere_sample(light, position, safe_normalize(uniform * t - to_center),
-                             0.5f * inv_two_pi);
+        LightSample s = sphere_sample(light, position, safe_normalize(uniform * t - to_center),
+                                      0.5f * inv_two_pi);
+        s.wi = uniform; // on the wall itself the chord may be shorter than its rounding
+        return s;
     }
-    const float extent = one_minus_cos(sin2);
+    const float extent = one_minus_cos(sphere_sin2(light, to_center));
     const DirectionSample cone = sample_cone(u, extent);
     // Angle at the centre between the receiver and the near crossing (Shirley, Wang 1996).
     const Vec3 c = cone.direction;
@@ -215,8 +229,10 @@ RT_HD float light_pdf(const Light& light, const Receiver& receiver, Vec3 wi, Vec
                 return detail::area_to_solid_angle(to_light, light.inside_out ? -out : out,
                                                    light.area);
             }
-            const float sin2 = detail::sphere_sin2(light, light.origin - receiver.position);
-            return sin2 < 1 ? inv_two_pi / one_minus_cos(sin2) : 0.5f * inv_two_pi;
+            const Vec3 to_center = light.origin - receiver.position;
+            return detail::inside_sphere(light, to_center)
+                       ? 0.5f * inv_two_pi
+                       : inv_two_pi / one_minus_cos(detail::sphere_sin2(light, to_center));
         }
     if (!detail::in_front(light, receiver.position))
         return 0;
