@@ -126,6 +126,7 @@ int run_and_report(const Options& options) {
 } // namespace plumb
 
 int main(int argc, char** argv) {
+    std::signal(SIGXFSZ, SIG_IGN); // a file-size limit is an error of write(), not the end
     for (const int signal_number : {SIGINT, SIGTERM, SIGHUP})
         std::signal(signal_number, plumb::request_stop);
     const plumb::ParsedOptions parsed = plumb::parse_options(argc, argv);
