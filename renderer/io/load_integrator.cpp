@@ -50,7 +50,9 @@ void load_integrator(LoadContext& context, const XmlNode& integrator) {
         load_depths(p, path);
     }
     path.hide_emitters = p.boolean("hide_emitters", false);
-    path.strict_normals = p.boolean("strict_normals", false);
+    if (!p.boolean("strict_normals", true))
+        context.ignore(integrator,
+                       "strict_normals false: normals are always strict, no light leaks");
     p.changes_no_pixel({"block_size", "samples_per_pass", "timeout"});
     if (plugin.empty())
         p.ignore_rest();

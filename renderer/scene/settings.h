@@ -36,8 +36,7 @@ struct PathSettings {
     int max_depth = -1;
     /// First depth (in segments, the camera's being 1) after which roulette may end a path.
     int rr_depth = 5;
-    bool hide_emitters = false;  ///< directly visible emitters are black
-    bool strict_normals = false; ///< light only where shading and geometric normal agree
+    bool hide_emitters = false; ///< directly visible emitters are black
     Estimator estimator = Estimator::mis;
     HemisphereSampling hemisphere = HemisphereSampling::cosine;
     LightSampling light_sampling = LightSampling::solid_angle;

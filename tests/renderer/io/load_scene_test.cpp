@@ -64,7 +64,6 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.path.max_depth, b.path.max_depth);
     EXPECT_EQ(a.path.rr_depth, b.path.rr_depth);
     EXPECT_EQ(a.path.hide_emitters, b.path.hide_emitters);
-    EXPECT_EQ(a.path.strict_normals, b.path.strict_normals);
 }
 
 TEST_F(LoadScene, OldAndNewDialectsGiveTheSameScene) {
@@ -124,7 +123,6 @@ TEST_F(LoadScene, OldAndNewDialectsGiveTheSameScene) {
     EXPECT_EQ(old_scene.path.max_depth, 7);
     EXPECT_EQ(old_scene.path.rr_depth, 3);
     EXPECT_TRUE(old_scene.path.hide_emitters);
-    EXPECT_TRUE(old_scene.path.strict_normals);
     EXPECT_EQ(old_scene.camera.fov_deg, 35);
     EXPECT_EQ(old_scene.camera.fov_axis, FovAxis::smaller);
     EXPECT_EQ(old_scene.camera.near_clip, 10);
