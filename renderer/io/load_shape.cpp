@@ -116,6 +116,8 @@ Mesh ShapeLoader::load_mesh_file(Properties& p, std::string_view plugin) {
     apply_transform(mesh, p.transform("to_world"));
     if (smooth)
         compute_normals(mesh);
+    if (smooth && has_flat_normals(mesh))
+        drop_normals(mesh);
     p.not_supported({"max_smooth_angle", "shape_index", "shape_name"});
     // Texture coordinates and tangents: nothing reads them yet.
     p.changes_no_pixel({"flip_tex_coords", "flip_uvs", "srgb", "load_materials", "collapse"});

@@ -97,4 +97,16 @@ void compute_normals(Mesh& mesh) {
         mesh.normals[i] = to_unit(sums[i]);
 }
 
+bool has_flat_normals(const Mesh& mesh) {
+    for (const Triangle& t : mesh.triangles) {
+        const Vec3 a = mesh.positions[t.a];
+        const Vec3 face =
+            to_unit(cross(edge(a, mesh.positions[t.b]), edge(a, mesh.positions[t.c])));
+        for (const std::uint32_t i : {t.a, t.b, t.c})
+            if (max_component(abs(mesh.normals[i] - face)) > 1e-6f)
+                return false;
+    }
+    return true;
+}
+
 } // namespace plumb

@@ -31,4 +31,8 @@ void drop_normals(Mesh& mesh);
 /// is set. Vertices of no triangle with an area, or whose sum is zero, get (0,0,1).
 void compute_normals(Mesh& mesh);
 
+/// Whether every vertex normal is the geometric normal of all its triangles (to 1e-6): the mesh
+/// would look the same without normals, and a kernel need not interpolate them.
+[[nodiscard]] bool has_flat_normals(const Mesh& mesh);
+
 } // namespace plumb

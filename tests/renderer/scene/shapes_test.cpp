@@ -162,6 +162,19 @@ TEST(MeshEdit, NormalsTransformByTheInverseTranspose) {
     EXPECT_GT(dot(geometric_normal(mesh, mesh.triangles[0]), mesh.normals[0]), 0);
 }
 
+TEST(MeshEdit, OnlyPlaneMeshesHaveFlatComputedNormals) {
+    Mesh square;
+    square.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    square.triangles = {{0, 1, 2}, {0, 2, 3}};
+    compute_normals(square);
+    EXPECT_TRUE(has_flat_normals(square));
+
+    Mesh folded = square;
+    folded.positions[3].z = 0.1f;
+    compute_normals(folded);
+    EXPECT_FALSE(has_flat_normals(folded));
+}
+
 TEST(MeshEdit, ComputedNormalsWeightTrianglesByAngle) {
     // A cube corner: one face as two triangles, the others whole. Angle weights see three equal
     // faces; area or uniform weights do not.
