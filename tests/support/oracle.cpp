@@ -1,0 +1,123 @@
+#include "tests/support/oracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+namespace plumb::test {
+namespace {
+
+/// Largest film: its sums take 56 bytes a pixel.
+constexpr std::uint64_t max_side = 1024;
+/// Rounding of float sums, relative to the result.
+constexpr double rounding = 1e-5;
+
+const char* name_of(Estimator e) {
+    return e == Estimator::mis ? "mis" : e == Estimator::light ? "light" : "bsdf";
+}
+
+const char* name_of(RouletteKind r) {
+    return r == RouletteKind::none         ? "none"
+           : r == RouletteKind::throughput ? "throughput"
+                                           : "constant";
+}
+
+} // namespace
+
+std::string Method::name() const {
+    return std::string(name_of(estimator)) +
+           (hemisphere == HemisphereSampling::cosine ? "_cosine_" : "_uniform_") +
+           name_of(roulette) + (lights == LightSampling::area ? "_area" : "");
+}
+
+void Method::apply(Scene& scene) const {
+    scene.path.estimator = estimator;
+    scene.path.hemisphere = hemisphere;
+    scene.path.light_sampling = lights;
+    scene.path.roulette = roulette;
+    scene.path.roulette_constant = roulette_probability;
+    scene.path.rr_depth = 1;
+    scene.path.max_depth = roulette == RouletteKind::none ? depth_without_roulette : -1;
+}
+
+std::vector<Method> all_methods() {
+    std::vector<Method> methods;
+    for (const Estimator e : {Estimator::mis, Estimator::light, Estimator::bsdf})
+        for (const auto h : {HemisphereSampling::cosine, HemisphereSampling::uniform})
+            for (const auto r :
+                 {RouletteKind::throughput, RouletteKind::constant, RouletteKind::none})
+                methods.push_back({e, h, r, LightSampling::solid_angle});
+    return methods;
+}
+
+std::vector<OracleRun> runs_of(const std::vector<Oracle>& oracles) {
+    std::vector<OracleRun> runs;
+    for (const Oracle& oracle : oracles) {
+        for (const Method& method : all_methods())
+            runs.push_back({oracle, method});
+        if (!oracle.by_area)
+            continue;
+        for (const Estimator e : {Estimator::mis, Estimator::light})
+            runs.push_back(
+                {oracle,
+                 {e, HemisphereSampling::cosine, RouletteKind::throughput, LightSampling::area}});
+    }
+    return runs;
+}
+
+double RelativeSamples::variance() const {
+    return std::max({channel[0].variance(), channel[1].variance(), channel[2].variance()});
+}
+
+double RelativeSamples::max_over_mean() const {
+    double largest = 0;
+    for (const MeanTest& c : channel)
+        largest = std::fmax(largest, c.max_abs() / c.mean());
+    return largest;
+}
+
+double RelativeSamples::largest_z() const {
+    double largest = 0;
+    for (const MeanTest& c : channel) {
+        const double z = (c.mean() - 1) / std::hypot(c.standard_error(), rounding);
+        if (!(std::fabs(z) <= std::fabs(largest))) // NaN stays
+            largest = z;
+    }
+    return largest;
+}
+
+RelativeSamples sample(const OracleRun& run, std::uint64_t count) {
+    RelativeSamples samples;
+    for (std::uint64_t seed = 1; samples.channel[0].count() < count; ++seed) {
+        const auto missing = static_cast<double>(count - samples.channel[0].count());
+        const auto side =
+            std::min(max_side, static_cast<std::uint64_t>(std::ceil(std::sqrt(missing))));
+        RenderSetup setup;
+        setup.parameters = {{"side", std::to_string(side)}, {"seed", std::to_string(seed)}};
+        setup.adjust = [&run](Scene& scene) { run.method.apply(scene); };
+        const Image image = render_xml(run.oracle.xml, setup, run.oracle.files).image;
+        for (const Rgb& p : image.pixels) {
+            const float value[3] = {p.r, p.g, p.b};
+            for (int c = 0; c < 3; ++c)
+                samples.channel[c].add(static_cast<double>(value[c]) / run.expected()[c]);
+        }
+    }
+    return samples;
+}
+
+std::map<std::string, OracleBound> read_oracle_bounds(const std::string& file) {
+    std::ifstream in(file);
+    if (!in)
+        throw std::runtime_error("cannot read " + file);
+    std::map<std::string, OracleBound> bounds;
+    std::string name;
+    OracleBound bound;
+    while (in >> name >> bound.variance >> bound.max_over_mean)
+        bounds[name] = bound;
+    return bounds;
+}
+
+void PrintTo(const OracleRun& run, std::ostream* out) { *out << run.name(); }
+
+} // namespace plumb::test

@@ -1,0 +1,87 @@
+/// \file  A scene with a closed form, the methods that must reach it, and what a render gave.
+///
+/// Oracle images have one sample a pixel, so that every pixel is an independent sample of one
+/// number: mean, variance and the largest sample are those of the estimator.
+#pragma once
+
+#include "tests/support/render_scene.h"
+#include "tests/support/statistics.h"
+
+#include <cstdint>
+#include <map>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace plumb::test {
+
+/// Probability to go on of the constant roulette: not 1/2, where a wrong probability hides.
+inline constexpr float roulette_probability = 0.85f;
+/// Longest path without roulette.
+inline constexpr int depth_without_roulette = 6;
+
+struct Method {
+    Estimator estimator = Estimator::mis;
+    HemisphereSampling hemisphere = HemisphereSampling::cosine;
+    RouletteKind roulette = RouletteKind::throughput;
+    LightSampling lights = LightSampling::solid_angle;
+
+    /// As in "mis_cosine_throughput" or "light_uniform_none_area".
+    [[nodiscard]] std::string name() const;
+    /// Roulette plays from the first bounce on; without it, paths are cut after
+    /// depth_without_roulette segments.
+    void apply(Scene& scene) const;
+};
+
+/// Estimator x hemisphere x roulette, lights by solid angle.
+[[nodiscard]] std::vector<Method> all_methods();
+
+struct Oracle {
+    std::string name;
+    std::string xml;         ///< made by scene_text
+    double expected[3] = {}; ///< radiance seen by every pixel
+    /// The same of paths of at most depth_without_roulette segments; equal where one bounce is all.
+    double expected_cut[3] = {};
+    /// Light sampling by area has a bounded variance too, and differs.
+    bool by_area = false;
+    SceneFileTexts files;
+};
+
+struct OracleRun {
+    Oracle oracle;
+    Method method;
+
+    [[nodiscard]] std::string name() const { return oracle.name + "_" + method.name(); }
+    [[nodiscard]] const double* expected() const {
+        return method.roulette == RouletteKind::none ? oracle.expected_cut : oracle.expected;
+    }
+};
+
+/// All pairs of an oracle with its methods.
+[[nodiscard]] std::vector<OracleRun> runs_of(const std::vector<Oracle>& oracles);
+
+/// Samples divided by what they should be: mean 1.
+struct RelativeSamples {
+    MeanTest channel[3];
+
+    [[nodiscard]] double variance() const;      ///< largest of the channels
+    [[nodiscard]] double max_over_mean() const; ///< largest of the channels
+    /// Largest |z| of the three means against 1. float arithmetic is granted 1e-5, so that
+    /// estimators without noise have a finite z.
+    [[nodiscard]] double largest_z() const;
+};
+
+/// Renders at least `count` samples. Throws what load_scene throws.
+[[nodiscard]] RelativeSamples sample(const OracleRun& run, std::uint64_t count);
+
+/// What a run is held to, measured once: relative variance and max/mean.
+struct OracleBound {
+    double variance = 0, max_over_mean = 0;
+};
+
+/// Reads lines "name variance max/mean". Throws std::runtime_error where there is no file.
+[[nodiscard]] std::map<std::string, OracleBound> read_oracle_bounds(const std::string& file);
+
+void PrintTo(const OracleRun& run, std::ostream* out);
+
+} // namespace plumb::test

@@ -1,0 +1,114 @@
+#include "tests/support/render_scene.h"
+
+#include "renderer/scene/scene_tables.h"
+
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <fstream>
+
+#include <unistd.h>
+
+namespace plumb::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An empty folder, removed at the end.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        static std::atomic<int> count{0};
+        path_ = fs::temp_directory_path() /
+                ("plumb_render_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
+        fs::create_directories(path_);
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    [[nodiscard]] fs::path write(const std::string& name, std::string_view content) const {
+        std::ofstream(path_ / name, std::ios::binary) << content;
+        return path_ / name;
+    }
+
+  private:
+    fs::path path_;
+};
+
+class Fnv {
+  public:
+    void add(std::uint32_t word) {
+        for (int shift = 0; shift < 32; shift += 8)
+            hash_ = (hash_ ^ ((word >> shift) & 0xffu)) * 0x100000001b3u;
+    }
+    [[nodiscard]] std::uint64_t value() const { return hash_; }
+
+  private:
+    std::uint64_t hash_ = 0xcbf29ce484222325u;
+};
+
+} // namespace
+
+Rendered render_file(const fs::path& file, const RenderSetup& setup) {
+    Scene scene = load_scene({file, setup.parameters, false});
+    if (setup.adjust)
+        setup.adjust(scene);
+    const SceneTables tables(scene);
+    const auto intersector = make_intersector(setup.accel, tables.geometry(), setup.build);
+    RenderOptions how;
+    how.threads = setup.threads;
+    how.variance = setup.variance;
+    how.force_full_profile = setup.full_profile;
+    Rendered result;
+    result.image =
+        render(make_job(scene, tables.view()), features_of(scene), *intersector, how, result.stats)
+            .resolve();
+    return result;
+}
+
+Rendered render_xml(std::string_view xml, const RenderSetup& setup, const SceneFileTexts& files) {
+    const TemporaryFolder folder;
+    for (const auto& [name, content] : files)
+        static_cast<void>(folder.write(name, content));
+    return render_file(folder.write("scene.xml", xml), setup);
+}
+
+std::uint64_t bits_of(const Image& image) {
+    Fnv hash;
+    hash.add(static_cast<std::uint32_t>(image.width));
+    hash.add(static_cast<std::uint32_t>(image.height));
+    for (const Rgb& p : image.pixels)
+        for (const float c : {p.r, p.g, p.b})
+            hash.add(std::bit_cast<std::uint32_t>(c));
+    return hash.value();
+}
+
+ImageMean mean_of(const Image& image, double spp) {
+    ImageMean result;
+    const double n = static_cast<double>(image.pixels.size());
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const Rgb &p = image.pixels[i], &v = image.variance.at(i);
+        const float values[3] = {p.r, p.g, p.b}, variances[3] = {v.r, v.g, v.b};
+        for (int c = 0; c < 3; ++c) {
+            result.mean[c] += static_cast<double>(values[c]) / n;
+            result.variance[c] += static_cast<double>(variances[c]) / (spp * n * n);
+        }
+    }
+    return result;
+}
+
+double largest_z(const ImageMean& a, const ImageMean& b) {
+    double largest = 0;
+    for (int c = 0; c < 3; ++c) {
+        const double z = (a.mean[c] - b.mean[c]) / std::sqrt(a.variance[c] + b.variance[c]);
+        if (!(std::fabs(z) <= std::fabs(largest))) // NaN stays
+            largest = z;
+    }
+    return largest;
+}
+
+} // namespace plumb::test
