@@ -56,7 +56,8 @@ def heights():
         for i, value in enumerate(row):
             x = 2 * i / CELLS - 1
             away = min(1.0, math.sqrt(x * x + z * z))
-            row[i] = 0.34 * value * (1 - away * away) - 0.12 * away * away * away
+            shore, value = 1 - away * away, max(0.0, value)
+            row[i] = 0.3 * (value * shore) * math.sqrt(value * shore) - 0.05 * away
     return field
 
 
