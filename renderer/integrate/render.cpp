@@ -37,15 +37,19 @@ std::size_t tile_count(const Crop& crop) {
     return tiles(crop.width) * tiles(crop.height);
 }
 
+/// A set `cancel` ends it early: the pixels keep the samples they have.
 template <Features F>
 RayCounts render_tile(const RenderJob& job, const IntersectorQuery& query, const Tile& tile,
-                      Film& film) {
+                      const std::atomic<bool>& cancel, Film& film) {
     RayCounts counts;
     for (int y = tile.y0; y < tile.y1; ++y)
         for (int x = tile.x0; x < tile.x1; ++x) {
             FilmPixel& pixel = film.pixel(x, y);
-            for (std::uint32_t s = 0; s < job.sampler.spp; ++s)
+            for (std::uint32_t s = 0; s < job.sampler.spp; ++s) {
+                if (s % 64 == 0 && cancel.load(std::memory_order_relaxed))
+                    return counts;
                 pixel.add(sample_pixel<F>(job, query, x, y, s, counts), film.with_variance());
+            }
         }
     return counts;
 }
@@ -73,22 +77,20 @@ Film render(const RenderJob& job, const Features& needed, const Intersector& int
     Film film(job.width, job.height, job.crop, options.variance);
     const IntersectorQuery query{intersector};
     const std::size_t tiles = tile_count(job.crop);
+    const std::atomic<bool> never{false};
+    const std::atomic<bool>& cancel = options.cancel != nullptr ? *options.cancel : never;
     std::mutex mutex; // guards stats and the progress callback
     std::size_t done = 0;
     parallel_for(tiles, options.threads, [&](std::size_t i) {
-        if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed))
-            return;
-        const Tile tile = tile_at(job.crop, i);
-        const RayCounts counts = kernel(job, query, tile, film);
+        const RayCounts counts = kernel(job, query, tile_at(job.crop, i), cancel, film);
         const std::scoped_lock lock(mutex);
         stats.rays += counts;
-        stats.samples += static_cast<std::uint64_t>(tile.x1 - tile.x0) *
-                         static_cast<std::uint64_t>(tile.y1 - tile.y0) * job.sampler.spp;
         ++done;
         if (options.progress)
             options.progress(static_cast<double>(done) / static_cast<double>(tiles),
                              stats.rays.total());
     });
+    stats.samples = stats.rays.camera;
     stats.render_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return film;

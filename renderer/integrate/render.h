@@ -26,7 +26,8 @@ struct RenderOptions {
     bool variance = false;           ///< keep each pixel's sample variance
     bool force_full_profile = false; ///< run the general kernel whatever the scene needs
     Progress progress;
-    const std::atomic<bool>* cancel = nullptr; ///< set: tiles not begun stay black
+    /// Set to end early: pixels keep the samples they have, those without any are black.
+    const std::atomic<bool>* cancel = nullptr;
 };
 
 /// The job that renders `scene` as its settings say. `tables` must outlive it.
