@@ -27,8 +27,8 @@ struct AccelStats {
 };
 
 /// Ray queries over one GeometryView, which must outlive it. Safe to call from any number of
-/// threads. Invalid rays (see is_valid) miss. Of several hits at the same t the lowest
-/// (geometry, primitive) is returned.
+/// threads. Invalid rays (see is_valid) miss. Of several hits at the same t naive and sah return
+/// the lowest (geometry, primitive), Embree the one that it meets first.
 class Intersector {
   public:
     Intersector() = default;
