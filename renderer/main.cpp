@@ -1,5 +1,7 @@
 /// \file  The command line program: one straight line from scene to image.
 
+#include "accel/sah/sah_intersector.h"
+#include "cuda/cuda_render.h"
 #include "renderer/io/write_file.h"
 #include "renderer/options.h"
 #include "renderer/report.h"
@@ -52,8 +54,28 @@ void print_lines(const std::vector<std::string>& lines) {
         fmt::print(stderr, "{}\n", line);
 }
 
+/// Says on stderr why --device=auto does without a GPU.
+void note_fallback(const Options& options, std::string_view why) {
+    if (!options.quiet)
+        fmt::print(stderr, "note: rendering on the CPU: {}\n", why);
+}
+
+/// Whether a GPU renders. Throws DeviceError where --device=cuda asks for one that is not there.
+bool chooses_cuda(const Options& options) {
+    if (options.device == Device::cpu)
+        return false;
+    std::string why = "cuda: needs --accel=sah";
+    if (options.accel == AccelKind::sah && cuda_available(&why))
+        return true;
+    if (options.device == Device::cuda)
+        throw DeviceError(why);
+    note_fallback(options, why);
+    return false;
+}
+
 Film render_with_progress(const Options& options, const Scene& scene, const SceneTables& tables,
                           RunReport& report) {
+    const bool on_cuda = chooses_cuda(options);
     const auto intersector = make_intersector(options.accel, tables.geometry(), options.build);
     report.build = intersector->stats();
     report.accel = name_of(options.accel);
@@ -65,8 +87,23 @@ Film render_with_progress(const Options& options, const Scene& scene, const Scen
     how.force_full_profile = options.full_profile;
     how.progress = [&progress](double done, std::uint64_t rays) { progress.update(done, rays); };
     how.cancel = &cancelled;
-    return render(make_job(scene, tables.view()), features_of(scene), *intersector, how,
-                  report.render);
+    const RenderJob job = make_job(scene, tables.view());
+    const Features needed = features_of(scene);
+    if (on_cuda) {
+        try {
+            const auto& sah = static_cast<const SahIntersector&>(*intersector);
+            report.device = "cuda";
+            return render_on_cuda(job, needed, sah.view(), options.build.triangle_test, how,
+                                  report.render);
+        } catch (const DeviceError& error) {
+            if (options.device == Device::cuda)
+                throw;
+            note_fallback(options, error.what());
+            report.device = "cpu";
+            report.render = {};
+        }
+    }
+    return render(job, needed, *intersector, how, report.render);
 }
 
 int run(Options options) {
@@ -113,6 +150,9 @@ int run_and_report(const Options& options) {
     } catch (const SceneError& error) {
         fmt::print(stderr, "{}\n", error.what());
         return error.exit_code();
+    } catch (const DeviceError& error) {
+        fmt::print(stderr, "error: {}\n", error.what());
+        return static_cast<int>(ErrorKind::resources);
     } catch (const std::bad_alloc&) {
         fmt::print(stderr, "error: out of memory\n");
         return static_cast<int>(ErrorKind::resources);
