@@ -2,6 +2,7 @@
 
 #include "accel/sah/sah_intersector.h"
 #include "cuda/cuda_render.h"
+#include "renderer/integrate/parallel_for.h"
 #include "renderer/io/write_file.h"
 #include "renderer/options.h"
 #include "renderer/report.h"
@@ -79,7 +80,7 @@ Film render_with_progress(const Options& options, const Scene& scene, const Scen
     const auto intersector = make_intersector(options.accel, tables.geometry(), options.build);
     report.build = intersector->stats();
     report.accel = name_of(options.accel);
-    report.threads = options.threads;
+    report.threads = thread_count(options.threads);
     ProgressPrinter progress(options.quiet);
     RenderOptions how;
     how.threads = options.threads;
