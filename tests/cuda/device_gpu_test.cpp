@@ -1,0 +1,89 @@
+/// \file  Images rendered on a GPU have the CPU's bits, for every scene of the project.
+
+#include "cuda/cuda_render.h"
+#include "tests/support/render_scene.h"
+
+#include "accel/sah/sah_intersector.h"
+#include "renderer/scene/scene_tables.h"
+
+#include <gtest/gtest.h>
+
+namespace plumb::test {
+namespace {
+
+std::vector<std::filesystem::path> project_scenes() {
+    std::vector<std::filesystem::path> scenes;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(PLUMB_SOURCE_DIR) / "scenes"))
+        if (entry.path().extension() == ".xml")
+            scenes.push_back(entry.path());
+    std::sort(scenes.begin(), scenes.end());
+    return scenes;
+}
+
+struct Variant {
+    SamplerKind sampler = SamplerKind::sobol;
+    Estimator estimator = Estimator::mis;
+    TriangleTest triangle_test = TriangleTest::watertight;
+    bool full_profile = false;
+};
+
+class OnDevice : public ::testing::TestWithParam<std::filesystem::path> {
+  protected:
+    void SetUp() override {
+        std::string why;
+        if (!cuda_available(&why))
+            GTEST_SKIP() << why;
+    }
+
+    static void expect_the_bits_of_the_cpu(const Variant& variant) {
+        Scene scene = load_scene({GetParam(), {{"res", "97"}, {"spp", "4"}}, false});
+        scene.sampler.kind = variant.sampler;
+        scene.path.estimator = variant.estimator;
+        const SceneTables tables(scene);
+        const auto sah = make_sah_intersector(tables.geometry(), variant.triangle_test);
+        const RenderJob job = make_job(scene, tables.view());
+        const Features needed = features_of(scene);
+        RenderOptions how;
+        how.variance = true;
+        how.force_full_profile = variant.full_profile;
+        RenderStats cpu_stats, gpu_stats;
+        const Image cpu = render(job, needed, *sah, how, cpu_stats).resolve();
+        const Image gpu =
+            render_on_cuda(job, needed, sah->view(), variant.triangle_test, how, gpu_stats)
+                .resolve();
+        EXPECT_EQ(bits_of(cpu), bits_of(gpu));
+        EXPECT_EQ(cpu.variance, gpu.variance);
+        EXPECT_EQ(cpu_stats.rays.camera, gpu_stats.rays.camera);
+        EXPECT_EQ(cpu_stats.rays.bounce, gpu_stats.rays.bounce);
+        EXPECT_EQ(cpu_stats.rays.shadow, gpu_stats.rays.shadow);
+    }
+};
+
+TEST_P(OnDevice, ImageHasTheBitsOfTheCpu) { expect_the_bits_of_the_cpu({}); }
+
+TEST_P(OnDevice, FullKernelHasTheBitsOfTheCpu) {
+    Variant variant;
+    variant.full_profile = true;
+    expect_the_bits_of_the_cpu(variant);
+}
+
+TEST_P(OnDevice, IndependentSamplesAndLightSamplingHaveTheBitsOfTheCpu) {
+    expect_the_bits_of_the_cpu(
+        {SamplerKind::independent, Estimator::light, TriangleTest::watertight, false});
+}
+
+TEST_P(OnDevice, MoellerTrumboreAndBsdfSamplingHaveTheBitsOfTheCpu) {
+    expect_the_bits_of_the_cpu(
+        {SamplerKind::sobol, Estimator::bsdf, TriangleTest::moeller_trumbore, false});
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, OnDevice, ::testing::ValuesIn(project_scenes()),
+                         [](const auto& scene) {
+                             std::string name = scene.param.stem().string();
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+} // namespace
+} // namespace plumb::test

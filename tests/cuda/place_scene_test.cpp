@@ -1,0 +1,109 @@
+/// \file  What is placed on a device is a whole copy: nothing points back to the host's scene.
+
+#include "tests/cuda/host_executor.h"
+
+#include "accel/sah/sah_intersector.h"
+
+#include <gtest/gtest.h>
+
+namespace plumb::test {
+namespace {
+
+/// Two meshes (one with normals), two spheres, two surfaces a kind, one light.
+class PlaceScene : public ::testing::Test {
+  protected:
+    PlaceScene() {
+        view.geometry = {meshes, spheres};
+        view.normals = mesh_normals;
+        view.surfaces = surfaces;
+        view.surface_lights = surface_lights;
+        view.materials = materials;
+        view.lights = lights;
+        view.light_cdf = cdf;
+    }
+
+    std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    std::vector<Vec3> normals{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {0, 0, -1}};
+    std::vector<Triangle> triangles{{0, 1, 2}, {1, 2, 3}};
+    std::vector<MeshView> meshes{{positions, triangles}, {positions, {&triangles[1], 1}}};
+    std::vector<std::span<const Vec3>> mesh_normals{{}, normals};
+    std::vector<Sphere> spheres{{{1, 2, 3}, 4}, {{5, 6, 7}, 8}};
+    std::vector<Surface> surfaces{4};
+    std::vector<SurfaceLights> surface_lights{4};
+    std::vector<Material> materials{2};
+    std::vector<Light> lights{1};
+    std::vector<float> cdf{0, 1};
+    SceneView view;
+};
+
+TEST_F(PlaceScene, MeasuringPredictsTheBytes) {
+    Arena measure;
+    static_cast<void>(place(view, measure));
+    HostBlock block(measure.used());
+    Arena arena = block.arena();
+    static_cast<void>(place(view, arena));
+    EXPECT_EQ(arena.used(), measure.used());
+    EXPECT_GT(arena.used(), positions.size() * sizeof(Vec3));
+}
+
+TEST_F(PlaceScene, EveryArrayLiesInTheBlock) {
+    Arena measure;
+    static_cast<void>(place(view, measure));
+    HostBlock block(measure.used());
+    Arena arena = block.arena();
+    const SceneView copy = place(view, arena);
+    EXPECT_TRUE(block.holds(copy.geometry.meshes));
+    EXPECT_TRUE(block.holds(copy.geometry.spheres));
+    EXPECT_TRUE(block.holds(copy.normals));
+    EXPECT_TRUE(block.holds(copy.surfaces));
+    EXPECT_TRUE(block.holds(copy.surface_lights));
+    EXPECT_TRUE(block.holds(copy.materials));
+    EXPECT_TRUE(block.holds(copy.lights));
+    EXPECT_TRUE(block.holds(copy.light_cdf));
+    for (const MeshView& mesh : copy.geometry.meshes) {
+        EXPECT_TRUE(block.holds(mesh.positions));
+        EXPECT_TRUE(block.holds(mesh.triangles));
+    }
+    for (const std::span<const Vec3>& mesh : copy.normals)
+        EXPECT_TRUE(block.holds(mesh));
+}
+
+TEST_F(PlaceScene, TheCopyHoldsWhatTheSceneHolds) {
+    Arena measure;
+    static_cast<void>(place(view, measure));
+    HostBlock block(measure.used());
+    Arena arena = block.arena();
+    const SceneView copy = place(view, arena);
+    ASSERT_EQ(copy.geometry.meshes.size(), 2u);
+    EXPECT_EQ(copy.geometry.meshes[0].positions[3], positions[3]);
+    EXPECT_EQ(copy.geometry.meshes[1].triangles[0].c, 3u);
+    EXPECT_TRUE(copy.normals[0].empty());
+    EXPECT_EQ(copy.normals[1][1], normals[1]);
+    EXPECT_EQ(copy.geometry.spheres[1].radius, 8);
+    EXPECT_EQ(copy.surfaces.size(), 4u);
+    EXPECT_EQ(copy.light_cdf[1], 1);
+}
+
+TEST(PlaceTree, ATreeIsCopiedWhole) {
+    const std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    const std::vector<Triangle> triangles(20, Triangle{0, 1, 2});
+    const std::vector<MeshView> meshes{{positions, triangles}};
+    const std::vector<Sphere> spheres{{{3, 0, 0}, 1}};
+    const auto sah = make_sah_intersector({meshes, spheres}, TriangleTest::watertight);
+    const SahView tree = sah->view();
+    Arena measure;
+    static_cast<void>(place(tree, measure));
+    HostBlock block(measure.used());
+    Arena arena = block.arena();
+    const SahView copy = place(tree, arena);
+    EXPECT_TRUE(block.holds(copy.nodes, copy.node_count * sizeof(SahNode)));
+    EXPECT_TRUE(block.holds(copy.blocks, copy.block_count * sizeof(TriangleBlock)));
+    EXPECT_TRUE(block.holds(copy.spheres, copy.sphere_count * sizeof(SahSphere)));
+    EXPECT_EQ(std::memcmp(copy.nodes, tree.nodes, tree.node_count * sizeof(SahNode)), 0);
+    EXPECT_EQ(std::memcmp(copy.blocks, tree.blocks, tree.block_count * sizeof(TriangleBlock)), 0);
+    EXPECT_EQ(copy.spheres[0].sphere.center, spheres[0].center);
+    EXPECT_EQ(copy.sphere_geometry, 1u);
+}
+
+} // namespace
+} // namespace plumb::test
