@@ -56,9 +56,7 @@ std::vector<OracleRun> runs_of(const std::vector<Oracle>& oracles) {
     for (const Oracle& oracle : oracles) {
         for (const Method& method : all_methods())
             runs.push_back({oracle, method});
-        if (!oracle.by_area)
-            continue;
-        for (const Estimator e : {Estimator::mis, Estimator::light})
+        for (const Estimator e : oracle.by_area)
             runs.push_back(
                 {oracle,
                  {e, HemisphereSampling::cosine, RouletteKind::throughput, LightSampling::area}});

@@ -42,8 +42,11 @@ struct Oracle {
     double expected[3] = {}; ///< radiance seen by every pixel
     /// The same of paths of at most depth_without_roulette segments; equal where one bounce is all.
     double expected_cut[3] = {};
-    /// Light sampling by area has a bounded variance too, and differs.
-    bool by_area = false;
+    /// Estimators that are run with light sampling by area too: where that has a variance that
+    /// can be afforded.
+    std::vector<Estimator> by_area;
+    /// Light sampling alone has no bounded variance (a lamp that touches a wall): mean only.
+    bool light_unbounded = false;
     SceneFileTexts files;
 };
 
@@ -52,6 +55,9 @@ struct OracleRun {
     Method method;
 
     [[nodiscard]] std::string name() const { return oracle.name + "_" + method.name(); }
+    [[nodiscard]] bool has_bounded_noise() const {
+        return !(oracle.light_unbounded && method.estimator == Estimator::light);
+    }
     [[nodiscard]] const double* expected() const {
         return method.roulette == RouletteKind::none ? oracle.expected_cut : oracle.expected;
     }

@@ -10,8 +10,8 @@ namespace plumb::test {
 
 inline constexpr double pi_double = 3.14159265358979323846;
 inline constexpr Double3 up_z{0, 0, 1};
-/// Not 1/2, and another in each channel.
-inline constexpr Double3 grey_of_three{0.7, 0.35, 0.55};
+/// Of walls that light meets many times: not 1/2, and another in each channel.
+inline constexpr Double3 wall_albedo{0.6, 0.3, 0.45};
 /// Of surfaces that light meets once: bright, so that roulette takes few of the paths.
 inline constexpr Double3 receiver_albedo{0.9, 0.4, 0.6};
 inline constexpr Double3 light_of_three{4, 2.5, 1.5};

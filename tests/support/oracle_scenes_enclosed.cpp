@@ -18,9 +18,8 @@ Oracle furnace(std::string name, const std::string& camera, const std::string& b
     oracle.name = std::move(name);
     oracle.xml = scene_text(camera, body);
     for (std::size_t c = 0; c < 3; ++c) {
-        oracle.expected[c] = series(light_of_three[c], grey_of_three[c]);
-        oracle.expected_cut[c] =
-            series(light_of_three[c], grey_of_three[c], depth_without_roulette);
+        oracle.expected[c] = series(light_of_three[c], wall_albedo[c]);
+        oracle.expected_cut[c] = series(light_of_three[c], wall_albedo[c], depth_without_roulette);
     }
     return oracle;
 }
@@ -29,13 +28,13 @@ Oracle box_furnace() {
     return furnace(
         "box_furnace", camera_at({0.2, -0.1, 0.3}, {-0.4, 0.5, -1}, up_z, 50),
         shape("cube", R"(<scale x="1.1" y="0.8" z="1.4"/>)",
-              diffuse(grey_of_three) + area_emitter(light_of_three) + std::string(inside_out)));
+              diffuse(wall_albedo) + area_emitter(light_of_three) + std::string(inside_out)));
 }
 
 /// Two-sided walls, rectangles instead of triangles.
 Oracle rectangle_furnace() {
     const double size[3] = {1.1, 0.8, 1.4};
-    const std::string wall = twosided(grey_of_three) + area_emitter(light_of_three);
+    const std::string wall = twosided(wall_albedo) + area_emitter(light_of_three);
     std::string body;
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (const double side : {-1.0, 1.0}) {
@@ -53,7 +52,7 @@ Oracle sphere_furnace() {
     return furnace(
         "sphere_furnace", camera_at({0.2, -0.5, 0.3}, {-0.4, 0.5, -1}, up_z, 40),
         sphere({0.1, 0.2, -0.1}, 1.3,
-               diffuse(grey_of_three) + area_emitter(light_of_three) + std::string(inside_out)));
+               diffuse(wall_albedo) + area_emitter(light_of_three) + std::string(inside_out)));
 }
 
 /// A point light at the centre of a sphere: direct radiance rho I / (pi R^2), then the furnace.
@@ -72,13 +71,13 @@ Oracle point_in_sphere(std::string name, double radius, const Double3& intensity
     return oracle;
 }
 
-/// A sphere whose cap of 70 degrees is closed by a flat lamp of albedo `lamp` (0 or 1). Whatever
+/// A sphere whose cap of 95 degrees is closed by a flat lamp of albedo `lamp` (0 or 1). Whatever
 /// reaches the wall from the cap crosses the lamp's disk, so the lamp stands for the cap exactly.
 /// With albedo 1 it sends back all that it gets, as the cap would (which sees itself): the wall's
-/// radiance is rho f E / (1 - rho) with f = (1 - cos 70°) / 2. Black, it is a hole:
+/// radiance is rho f E / (1 - rho) with f = (1 - cos 95°) / 2. Black, it is a hole:
 /// rho f E / (1 - rho (1 - f)).
 Oracle cavity(std::string name, double lamp) {
-    const double cosine = std::cos(70 * pi_double / 180), radius = 1.2;
+    const double cosine = std::cos(95 * pi_double / 180), radius = 1.2;
     const double f = (1 - cosine) / 2;
     Oracle oracle;
     oracle.name = std::move(name);
@@ -86,11 +85,11 @@ Oracle cavity(std::string name, double lamp) {
         fmt::format(R"(<scale value="{}"/><rotate x="1" angle="180"/><translate z="{}"/>)",
                     radius * std::sqrt(1 - cosine * cosine), radius * cosine);
     oracle.xml = scene_text(
-        camera_at({0.1, -0.5, 0.2}, {-0.3, 0.6, -0.9}, up_z, 20),
-        sphere({0, 0, 0}, radius, diffuse(grey_of_three) + std::string(inside_out)) +
+        camera_at({0.1, -0.5, -0.4}, {-0.3, 0.5, -1}, up_z, 20),
+        sphere({0, 0, 0}, radius, diffuse(wall_albedo) + std::string(inside_out)) +
             shape("disk", disk, diffuse({lamp, lamp, lamp}) + area_emitter(light_of_three)));
     for (std::size_t c = 0; c < 3; ++c) {
-        const double rho = grey_of_three[c], emitted = light_of_three[c];
+        const double rho = wall_albedo[c], emitted = light_of_three[c];
         oracle.expected[c] = series(rho * f * emitted, lamp > 0 ? rho : rho * (1 - f));
         // Order by order: what leaves the wall and the lamp after one reflection more.
         double wall = 0, from_lamp = emitted;
@@ -101,6 +100,7 @@ Oracle cavity(std::string name, double lamp) {
             oracle.expected_cut[c] += wall;
         }
     }
+    oracle.light_unbounded = true;
     return oracle;
 }
 
@@ -112,7 +112,7 @@ std::vector<Oracle> enclosed_oracles() {
             sphere_furnace(),
             point_in_sphere("point_in_unit_sphere", 1, {pi_double, pi_double, pi_double},
                             {0.5, 0.5, 0.5}), // radiance 1
-            point_in_sphere("point_in_sphere", 1.6, {3, 2, 5}, grey_of_three),
+            point_in_sphere("point_in_sphere", 1.6, {3, 2, 5}, wall_albedo),
             cavity("cavity", 1),
             cavity("cavity_with_hole", 0)};
 }

@@ -18,7 +18,7 @@ Oracle sphere_light(std::string name, double theta_deg, double distance, double 
     Oracle oracle = one_bounce(
         std::move(name), receiver_under(sphere(centre, radius, black_emitter(light_of_three))),
         pi_double * radius * radius / (distance * distance) * std::cos(theta));
-    oracle.by_area = true;
+    oracle.by_area = {Estimator::mis};
     return oracle;
 }
 
@@ -30,7 +30,7 @@ Oracle disk_light() {
     Oracle oracle = one_bounce("disk_light",
                                receiver_under(shape("disk", place, black_emitter(light_of_three))),
                                pi_double * r * r / (r * r + h * h));
-    oracle.by_area = true;
+    oracle.by_area = {Estimator::mis, Estimator::light};
     return oracle;
 }
 

@@ -46,7 +46,7 @@ Oracle polygon_light(std::string name, const std::string& lamp,
                      const std::vector<Double3>& corners) {
     Oracle oracle = one_bounce(std::move(name), scene_text(camera_on_origin(), receiver() + lamp),
                                polygon_irradiance(corners));
-    oracle.by_area = true;
+    oracle.by_area = {Estimator::mis, Estimator::light};
     return oracle;
 }
 
@@ -139,7 +139,7 @@ std::vector<Oracle> polygon_oracles() {
         mixed_lights(),
         parallel_squares("parallel_squares", 1.7, 0.7),
         perpendicular_squares()};
-    oracles[5].by_area = true;
+    oracles[5].by_area = {Estimator::mis, Estimator::light};
     return oracles;
 }
 
