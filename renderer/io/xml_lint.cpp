@@ -46,8 +46,7 @@ class Linter {
         if (depth_ > 0)
             truncated();
         if (!seen_root_)
-            xml_.refuse(0,
-                        "no XML element in the file (expected <scene version=\"3.0.0\">)");
+            xml_.refuse(0, "no XML element in the file (expected <scene version=\"3.0.0\">)");
     }
 
   private:
