@@ -27,7 +27,7 @@ double seconds_since(Clock::time_point start) {
 std::atomic<bool> cancelled{false};
 std::atomic<int> caught_signal{0};
 
-/// SIGINT, SIGTERM, SIGHUP: the tiles in work are finished and what is there is written.
+/// SIGINT, SIGTERM, SIGHUP: each thread ends within 64 samples and what is there is written.
 extern "C" void request_stop(int signal_number) {
     caught_signal = signal_number;
     cancelled = true;

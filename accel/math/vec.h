@@ -53,8 +53,8 @@ RT_HD constexpr Vec3 min(Vec3 a, Vec3 b) { return {min(a.x, b.x), min(a.y, b.y),
 RT_HD constexpr Vec3 max(Vec3 a, Vec3 b) { return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)}; }
 RT_HD constexpr float max_component(Vec3 a) { return max(a.x, max(a.y, a.z)); }
 
-/// Any unit-independent quotient of a vector and its largest component, exact to normalize without
-/// overflow: lengths from 1e-38 to 1e38 give a unit vector.
+/// Unit vector along `a` for any length from 1e-38 to 1e38 (scaled first, so that no square over-
+/// or underflows); zero for the zero vector.
 RT_HD inline Vec3 safe_normalize(Vec3 a) {
     const float largest = max_component(abs(a));
     return largest > 0 ? normalize(a / largest) : Vec3{};

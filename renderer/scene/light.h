@@ -10,7 +10,8 @@ enum class LightKind : std::uint8_t { triangle, rectangle, sphere, point, enviro
 
 /// One light. Triangle: origin + barycentrics over edge1, edge2. Rectangle: the parallelogram with
 /// right angles origin + s edge1 + t edge2. Sphere: centre `origin`, `radius`. Point: `origin`.
-/// Surface lights emit from their front only: the side of `normal`, or of `front` on spheres.
+/// Surface lights emit from their front only: the side of `normal`; spheres outside, or inside if
+/// `inside_out`.
 struct Light {
     LightKind kind = LightKind::point;
     bool inside_out = false; ///< spheres: the front is inside
