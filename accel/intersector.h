@@ -10,9 +10,27 @@ namespace plumb {
 
 enum class AccelKind : std::uint8_t { naive, sah, embree };
 
+/// How much time a build may take for faster rays. sah: fast is binned SAH, medium collapses it
+/// better, high adds spatial splits and reinsertion. embree: low, medium and high. naive: ignored.
+enum class BuildQuality : std::uint8_t { fast, medium, high };
+
+/// Instruction sets of the sah traversal; all give the same bits. `automatic` is the best that the
+/// processor has.
+enum class Isa : std::uint8_t { automatic, portable, avx2, avx512 };
+
 struct BuildOptions {
     TriangleTest triangle_test =
         TriangleTest::watertight; ///< naive and sah; embree: watertight only
+    BuildQuality quality = BuildQuality::medium;
+    Isa isa = Isa::automatic; ///< sah only
+    int threads = 0;          ///< of the build; 0: all cores. The tree is the same for any number
+};
+
+/// What closest-hit or any-hit queries touched, summed over rays.
+struct TraversalCounts {
+    std::uint64_t nodes = 0;     ///< inner nodes whose children's boxes were tested
+    std::uint64_t leaves = 0;    ///< leaves tested
+    std::uint64_t triangles = 0; ///< primitives in them, filled lanes only
 };
 
 struct AccelStats {
@@ -39,8 +57,13 @@ class Intersector {
     [[nodiscard]] virtual Hit closest(const Ray& ray) const = 0;
     /// Whether any hit exists; equal to closest(ray).valid().
     [[nodiscard]] virtual bool occluded(const Ray& ray) const = 0;
-    /// closest() of each ray; both spans have the same size.
+    /// closest() of each ray; both spans have the same size. Neighbours that run alike (camera rays
+    /// in blocks of pixels) may be faster together; the hits are the same bits.
     virtual void closest(std::span<const Ray> rays, std::span<Hit> hits) const;
+    /// occluded() of each ray, 1 or 0; both spans have the same size.
+    virtual void occluded(std::span<const Ray> rays, std::span<std::uint8_t> found) const;
+    /// What single-ray queries for these rays touch; zeros where the structure does not count.
+    [[nodiscard]] virtual TraversalCounts count(std::span<const Ray> rays, bool any_hit) const;
     [[nodiscard]] virtual AccelStats stats() const = 0;
 };
 
@@ -50,5 +73,7 @@ class Intersector {
                                                             const BuildOptions& options = {});
 
 [[nodiscard]] std::string_view name_of(AccelKind kind);
+[[nodiscard]] std::string_view name_of(BuildQuality quality);
+[[nodiscard]] std::string_view name_of(Isa isa);
 
 } // namespace plumb

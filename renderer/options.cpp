@@ -19,6 +19,12 @@ const Names<AccelKind> accel_names{
 const Names<TriangleTest> triangle_names{{"watertight", TriangleTest::watertight},
                                          {"moeller-trumbore", TriangleTest::moeller_trumbore},
                                          {"moller-trumbore", TriangleTest::moeller_trumbore}};
+const Names<BuildQuality> quality_names{
+    {"fast", BuildQuality::fast}, {"medium", BuildQuality::medium}, {"high", BuildQuality::high}};
+const Names<Isa> isa_names{{"auto", Isa::automatic},
+                           {"portable", Isa::portable},
+                           {"avx2", Isa::avx2},
+                           {"avx512", Isa::avx512}};
 const Names<Device> device_names{
     {"cpu", Device::cpu}, {"cuda", Device::cuda}, {"auto", Device::automatic}};
 const Names<Estimator> estimator_names{
@@ -130,6 +136,10 @@ void add_speed_flags(CLI::App& app, Options& options) {
     add_choice(app, "--accel", options.accel, accel_names, "Ray queries [sah]");
     add_choice(app, "--triangle-test", options.build.triangle_test, triangle_names,
                "Triangle test of naive and sah [watertight]");
+    add_choice(app, "--build-quality", options.build.quality, quality_names,
+               "Time spent on the tree of sah or embree for faster rays [medium]");
+    add_choice(app, "--isa", options.build.isa, isa_names,
+               "Instruction set of sah; all give the same bits [auto]");
     add_choice(app, "--device", options.device, device_names,
                "Where to render; auto takes a GPU where there is one [cpu]");
     add_count(app, "--threads", options.threads, 1, 1024, "Threads [all cores]");

@@ -131,6 +131,7 @@ class EmbreeIntersector final : public Intersector {
     }
 
     using Intersector::closest;
+    using Intersector::occluded;
 
     [[nodiscard]] Hit closest(const Ray& ray) const override {
         if (!is_valid(ray))

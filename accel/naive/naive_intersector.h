@@ -14,6 +14,7 @@ class NaiveIntersector final : public Intersector {
     NaiveIntersector(GeometryView geometry, TriangleTest test);
 
     using Intersector::closest;
+    using Intersector::occluded;
     [[nodiscard]] Hit closest(const Ray& ray) const override;
     [[nodiscard]] bool occluded(const Ray& ray) const override;
     [[nodiscard]] AccelStats stats() const override;

@@ -12,6 +12,7 @@ template <TriangleTest Test> class SahIntersectorWith final : public SahIntersec
     explicit SahIntersectorWith(const GeometryView& geometry) : SahIntersector(geometry) {}
 
     using Intersector::closest;
+    using Intersector::occluded;
     [[nodiscard]] Hit closest(const Ray& ray) const override {
         return plumb::closest<Test>(view(), ray);
     }

@@ -9,6 +9,7 @@ namespace plumb {
 class SahIntersector : public Intersector {
   public:
     using Intersector::closest;
+    using Intersector::occluded;
     [[nodiscard]] AccelStats stats() const override;
     /// What kernels traverse and upload. Valid as long as the intersector lives.
     [[nodiscard]] const SahView& view() const { return view_; }
