@@ -2,7 +2,7 @@
 
 #include "accel/sah/sah_intersector.h"
 #include "cuda/cuda_render.h"
-#include "renderer/integrate/parallel_for.h"
+#include "accel/parallel/parallel.h"
 #include "renderer/io/write_file.h"
 #include "renderer/options.h"
 #include "renderer/report.h"

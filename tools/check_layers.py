@@ -18,11 +18,12 @@ GEOMETRY = ["accel/math/", "accel/geometry.h", "accel/triangle.h", "accel/sphere
 ROOMS = {
     "accel/": ["accel/"],
     "accel/math/": ["accel/math/"],
+    "accel/parallel/": ["accel/parallel/"],
     "renderer/scene/": GEOMETRY + ["renderer/scene/"],
     "renderer/sampling/": GEOMETRY + ["renderer/scene/", "renderer/sampling/"],
     "renderer/shading/": GEOMETRY + ["renderer/scene/", "renderer/sampling/", "renderer/shading/"],
     "renderer/integrate/": GEOMETRY
-    + ["accel/intersector.h", "renderer/scene/", "renderer/sampling/", "renderer/shading/"]
+    + ["accel/intersector.h", "accel/parallel/parallel.h", "renderer/scene/", "renderer/sampling/", "renderer/shading/"]
     + ["renderer/integrate/"],
     "renderer/io/": GEOMETRY + ["renderer/scene/", "renderer/io/"],
     "cuda/": KERNEL_BASE + ["renderer/sampling/", "renderer/shading/", "renderer/integrate/", "cuda/"],
@@ -40,7 +41,7 @@ LIBRARIES = [
     ("OpenImageIO", r"OpenImageIO/", ["renderer/io/oiio_module/"]),
     ("OpenColorIO", r"OpenColorIO/", ["renderer/io/colour.cpp"]),
     ("OpenEXR", r"(OpenEXR/|Imath/)?(Imf|Imath|Iex|Ilm|half\.h)", ["renderer/io/exr_"]),
-    ("TBB", r"(oneapi/)?tbb/", ["renderer/integrate/parallel_for.cpp"]),
+    ("TBB", r"(oneapi/)?tbb/", ["accel/parallel/parallel.cpp"]),
     ("CLI11", r"CLI/", [PROGRAM, "tools/"]),
     ("fmt", r"fmt/", [PROGRAM, "renderer/io/", "renderer/scene/", "tools/", "tests/"]),
     ("zlib", r"zlib\.h", ["renderer/io/", "tests/"]),
@@ -54,7 +55,7 @@ STANDARD = re.compile(r"[a-z_0-9]+$")  # <vector>, <cmath>
 
 # These build with a C++20 compiler (or nvcc) alone, whatever the table above allows their folder.
 ALONE = re.compile(
-    r"accel/(?!embree/)|cuda/|renderer/(sampling|shading)/|renderer/integrate/(path|pixel)\.h|renderer/scene/\w+\.h"
+    r"accel/(?!embree/|parallel/parallel\.cpp)|cuda/|renderer/(sampling|shading)/|renderer/integrate/(path|pixel)\.h|renderer/scene/\w+\.h"
 )
 ALONE_MAY = {"vector intrinsics", "CUDA"}
 

@@ -1,6 +1,6 @@
 #include "renderer/integrate/render.h"
 
-#include "renderer/integrate/parallel_for.h"
+#include "accel/parallel/parallel.h"
 
 #include <chrono>
 #include <mutex>

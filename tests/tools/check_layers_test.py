@@ -15,6 +15,7 @@ SOUND = {
     "accel/math/vec.h": HEADER + "#include <cmath>\n",
     "accel/geometry.h": HEADER + '#include "accel/math/vec.h"\n',
     "accel/intersector.h": HEADER + '#include "accel/geometry.h"\n',
+    "accel/parallel/parallel.cpp": "/// \\file  Threads.\n#include <tbb/task_arena.h>\n",
     "accel/embree/embree_intersector.cpp": "/// \\file  Embree.\n#include <embree3/rtcore.h>\n",
     "renderer/scene/scene.h": HEADER + '#include "accel/geometry.h"\n',
     "renderer/shading/bsdf.h": HEADER + '#include "renderer/scene/scene.h"\n',
