@@ -1,98 +1,153 @@
 #include "accel/sah/binned_split.h"
 
 #include <algorithm>
-#include <array>
+#include <cstring>
+#include <utility>
 
 namespace plumb {
 namespace {
 
-struct Bin {
-    Bounds bounds;
-    std::uint32_t count = 0;
-};
+/// Ranges above this size are binned in chunks of it.
+constexpr std::size_t chunk_size = 1 << 15;
 
-using Bins = std::array<Bin, bin_count>;
+struct Bins {
+    Box bounds[3][bin_count];
+    std::uint32_t count[3][bin_count]{};
 
-struct Candidate {
-    int first_right_bin = 0;
-    double cost = std::numeric_limits<double>::infinity();
-};
-
-/// Costs of everything left of each plane are swept from the left, then met from the right.
-Candidate best_plane(const Bins& bins) {
-    std::array<double, bin_count> left_cost{};
-    std::array<std::uint32_t, bin_count> left_count{};
-    Bounds bounds;
-    std::uint32_t count = 0;
-    for (std::size_t i = 0; i < bin_count; ++i) {
-        left_count[i] = count;
-        left_cost[i] = surface_area(bounds) * leaf_cost(count);
-        bounds.extend(bins[i].bounds);
-        count += bins[i].count;
+    void add(std::span<const PrimitiveRef> refs, const BinClassifier& classifier) {
+        const Float4 last = float4::broadcast(bin_count - 1);
+        for (const PrimitiveRef& ref : refs) {
+            const Box box = ref.box();
+            std::int32_t bin[4];
+            float4::truncate(float4::min(classifier.position(centroid(box)), last), bin);
+            for (int axis = 0; axis < 3; ++axis) {
+                bounds[axis][bin[axis]].extend(box);
+                ++count[axis][bin[axis]];
+            }
+        }
     }
-    bounds = {};
+    void add(const Bins& other) {
+        for (int axis = 0; axis < 3; ++axis)
+            for (int i = 0; i < bin_count; ++i) {
+                bounds[axis][i].extend(other.bounds[axis][i]);
+                count[axis][i] += other.count[axis][i];
+            }
+    }
+    [[nodiscard]] Box merged(int axis, int begin, int end) const {
+        Box box;
+        for (int i = begin; i < end; ++i)
+            box.extend(bounds[axis][i]);
+        return box;
+    }
+};
+
+float block_leaf_cost(std::uint32_t count) {
+    return static_cast<float>(block_cost) * static_cast<float>((count + 7) / 8) +
+           static_cast<float>(primitive_cost) * static_cast<float>(count);
+}
+
+struct Plane {
+    int axis = 0, first_right_bin = 0;
+    std::uint32_t left_count = 0;
+    float cost = infinity;
+};
+
+/// Costs of everything right of each plane are swept from the right, then met from the left.
+void sweep_axis(const Bins& bins, int axis, std::uint32_t total, Float4 scale, Plane& best) {
+    float right_cost[bin_count];
+    Box box;
+    std::uint32_t count = 0;
+    for (int i = bin_count - 1; i > 0; --i) {
+        box.extend(bins.bounds[axis][i]);
+        count += bins.count[axis][i];
+        right_cost[i] = count == 0 ? infinity : box.half_area(scale) * block_leaf_cost(count);
+    }
+    box = {};
     count = 0;
-    Candidate best;
-    for (std::size_t i = bin_count - 1; i > 0; --i) {
-        if (bins[i].count == 0)
+    for (int i = 1; i < bin_count; ++i) {
+        box.extend(bins.bounds[axis][i - 1]);
+        count += bins.count[axis][i - 1];
+        if (count == 0 || count == total)
             continue;
-        bounds.extend(bins[i].bounds);
-        count += bins[i].count;
-        const double cost = left_cost[i] + surface_area(bounds) * leaf_cost(count);
-        if (left_count[i] != 0 && cost < best.cost)
-            best = {static_cast<int>(i), cost};
+        const float cost = box.half_area(scale) * block_leaf_cost(count) + right_cost[i];
+        if (cost < best.cost)
+            best = {axis, i, count, cost};
     }
-    return best;
+}
+
+void bin(const PrimitiveRange& range, const BinClassifier& classifier, const Workers& workers,
+         Bins& bins) {
+    const std::size_t chunks = (range.size() + chunk_size - 1) / chunk_size;
+    if (workers.count() == 1 || chunks < 4) {
+        bins.add(range.refs, classifier);
+        return;
+    }
+    std::vector<Bins> parts(chunks);
+    workers.for_each(chunks, [&](std::size_t i) {
+        const std::size_t begin = i * chunk_size;
+        parts[i].add(range.refs.subspan(begin, std::min(chunk_size, range.size() - begin)),
+                     classifier);
+    });
+    for (const Bins& part : parts)
+        bins.add(part);
 }
 
 } // namespace
 
-PrimitiveRange::PrimitiveRange(std::span<PrimitiveRef> primitives) : refs(primitives) {
-    for (const PrimitiveRef& ref : refs) {
-        bounds.extend(ref.bounds);
-        centroids.extend(ref.centroid());
-    }
+BinClassifier::BinClassifier(const Box& centroids) : origin_(centroids.lower) {
+    const Bounds b = centroids.bounds();
+    const auto scale = [](float lower, float upper) {
+        const float s = static_cast<float>(bin_count) / (upper - lower);
+        return s < infinity ? s : 0;
+    };
+    scale_ = float4::set(scale(b.lower.x, b.upper.x), scale(b.lower.y, b.upper.y),
+                         scale(b.lower.z, b.upper.z));
 }
 
-BinClassifier::BinClassifier(int axis, const Bounds& centroids)
-    : axis_(axis), origin_(centroids.lower[axis]),
-      scale_(static_cast<float>(bin_count) / (centroids.upper[axis] - centroids.lower[axis])) {}
-
-bool BinClassifier::usable() const { return scale_ < infinity; }
-
-int BinClassifier::operator()(const PrimitiveRef& ref) const {
-    const float position = component(ref.bounds.lower, axis_) + component(ref.bounds.upper, axis_);
-    return std::min(static_cast<int>((position - origin_) * scale_), bin_count - 1);
+std::optional<BinnedSplit> best_binned_split(const PrimitiveRange& range, Float4 scale,
+                                             const Workers& workers) {
+    const BinClassifier classifier(range.centroids);
+    Bins bins;
+    bin(range, classifier, workers, bins);
+    Plane best;
+    for (int axis = 0; axis < 3; ++axis)
+        sweep_axis(bins, axis, static_cast<std::uint32_t>(range.size()), scale, best);
+    if (best.first_right_bin == 0)
+        return {};
+    return BinnedSplit{classifier,
+                       best.axis,
+                       best.first_right_bin,
+                       best.left_count,
+                       bins.merged(best.axis, 0, best.first_right_bin),
+                       bins.merged(best.axis, best.first_right_bin, bin_count),
+                       best.cost};
 }
 
-double leaf_cost(std::size_t count) {
-    const std::size_t blocks = (count + 7) / 8;
-    return block_cost * static_cast<double>(blocks) + primitive_cost * static_cast<double>(count);
-}
-
-std::optional<BinnedSplit> best_binned_split(const PrimitiveRange& range) {
-    const BinClassifier classify[3]{
-        {0, range.centroids}, {1, range.centroids}, {2, range.centroids}};
-    std::array<Bins, 3> bins;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!classify[axis].usable())
-            continue;
-        for (const PrimitiveRef& ref : range.refs) {
-            Bin& bin = bins[axis][static_cast<std::size_t>(classify[axis](ref))];
-            bin.bounds.extend(ref.bounds);
-            ++bin.count;
+/// The i-th primitive that stands on the left and belongs to the right changes places with the
+/// i-th that stands on the right and belongs to the left.
+void partition(const PrimitiveRange& range, const BinnedSplit& split, PrimitiveRange& left,
+               PrimitiveRange& right, const Workers& /*workers*/) {
+    left = {range.refs.first(split.left_count), split.left, {}};
+    right = {range.refs.subspan(split.left_count), split.right, {}};
+    PrimitiveRef* l = left.refs.data();
+    PrimitiveRef* r = right.refs.data();
+    PrimitiveRef* const l_end = l + left.size();
+    PrimitiveRef* const r_end = r + right.size();
+    const auto skip = [&](PrimitiveRef*& ref, const PrimitiveRef* end, bool side, Box& centroids) {
+        for (; ref != end; ++ref) {
+            const Float4 c = centroid(ref->box());
+            if (split.goes_left(c) != side)
+                break;
+            centroids.extend_point(c);
         }
+    };
+    for (;;) {
+        skip(l, l_end, true, left.centroids);
+        skip(r, r_end, false, right.centroids);
+        if (l == l_end)
+            break;
+        std::swap(*l, *r);
     }
-    std::optional<BinnedSplit> best;
-    const double node = traversal_cost * surface_area(range.bounds);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!classify[axis].usable())
-            continue;
-        const Candidate candidate = best_plane(bins[axis]);
-        if (candidate.first_right_bin != 0 && (!best || node + candidate.cost < best->cost))
-            best = {classify[axis], candidate.first_right_bin, node + candidate.cost};
-    }
-    return best;
 }
 
 } // namespace plumb

@@ -4,63 +4,53 @@
 /// Interactive Ray Tracing 2007.
 #pragma once
 
-#include "accel/geometry.h"
+#include "accel/sah/primitive_ref.h"
+#include "accel/sah/sah_cost.h"
 
 #include <optional>
 
 namespace plumb {
 
-/// Costs of the surface area heuristic, in units of one node visited. Leaves are tested as a block
-/// of eight lanes: a block costs as such, and each triangle in it adds the chance that it passes
-/// the filter.
-inline constexpr double traversal_cost = 1;   ///< C_t: a node
-inline constexpr double block_cost = 1;       ///< C_i: a block of up to eight primitives
-inline constexpr double primitive_cost = 0.1; ///< each primitive of a block
-
 inline constexpr int bin_count = 32;
-
-/// A primitive while a tree is built.
-struct PrimitiveRef {
-    Bounds bounds;
-    std::uint32_t geometry, primitive;
-
-    /// Twice the centre of the box.
-    [[nodiscard]] Vec3 centroid() const { return bounds.lower + bounds.upper; }
-};
-
-/// Primitives with the box around them and the box around their centroids.
-struct PrimitiveRange {
-    std::span<PrimitiveRef> refs;
-    Bounds bounds, centroids;
-
-    /// Measures the two boxes.
-    explicit PrimitiveRange(std::span<PrimitiveRef> primitives);
-};
 
 /// Puts centroids into bins. The one classifier for choosing a split and for carrying it out, so
 /// that the two cannot disagree.
 class BinClassifier {
   public:
-    BinClassifier(int axis, const Bounds& centroids);
-    /// False where the centroids are too close together to be told apart.
-    [[nodiscard]] bool usable() const;
-    [[nodiscard]] int operator()(const PrimitiveRef& ref) const;
+    /// Axes along which the centroids are too close together to be told apart put all into bin 0.
+    explicit BinClassifier(const Box& centroids);
+
+    /// Position in bins on each axis: 0 <= x, and bin i takes i <= x < i + 1, the last bin the
+    /// rest.
+    [[nodiscard]] Float4 position(Float4 centroid) const {
+        return float4::multiply(float4::subtract(centroid, origin_), scale_);
+    }
 
   private:
-    int axis_;
-    float origin_, scale_;
+    Float4 origin_, scale_;
 };
 
+/// Primitives whose position on `axis` is below `first_right_bin` go left.
 struct BinnedSplit {
-    BinClassifier classify;
-    int first_right_bin; ///< lower bins go left
-    double cost;         ///< of the node and its two children, times the node's area
+    BinClassifier classifier;
+    int axis, first_right_bin;
+    std::size_t left_count;
+    Box left, right; ///< boxes of the two sides
+    float cost;      ///< area times leaf_cost of both sides, half areas scaled by the builder
+
+    [[nodiscard]] bool goes_left(Float4 centroid) const {
+        const auto plane = float4::broadcast(static_cast<float>(first_right_bin));
+        return ((float4::less(classifier.position(centroid), plane) >> axis) & 1u) != 0;
+    }
 };
 
-/// Cost of a leaf of `count` primitives, to be multiplied by its area.
-[[nodiscard]] double leaf_cost(std::size_t count);
+/// The cheapest split with primitives on both sides; nothing where no axis has one. Areas are
+/// multiplied by scale^2: it keeps them in the range of float whatever the scene's size.
+[[nodiscard]] std::optional<BinnedSplit> best_binned_split(const PrimitiveRange& range,
+                                                           Float4 scale, const Workers& workers);
 
-/// The cheapest split with primitives on both sides; nothing where no axis has one.
-[[nodiscard]] std::optional<BinnedSplit> best_binned_split(const PrimitiveRange& range);
+/// Orders a range so that the left side comes first, and measures both sides.
+void partition(const PrimitiveRange& range, const BinnedSplit& split, PrimitiveRange& left,
+               PrimitiveRange& right, const Workers& workers);
 
 } // namespace plumb

@@ -2,9 +2,9 @@
 
 #include "accel/naive/build_naive.h"
 #include "accel/naive/check_tree.h"
-#include "accel/sah/binned_split.h"
 #include "accel/sah/build_sah.h"
 #include "accel/sah/check_tree.h"
+#include "accel/sah/sah_cost.h"
 #include "tests/accel/intersector_suite.h"
 
 #include <algorithm>
