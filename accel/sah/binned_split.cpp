@@ -1,8 +1,8 @@
 #include "accel/sah/binned_split.h"
 
+#include "accel/sah/partition.h"
+
 #include <algorithm>
-#include <cstring>
-#include <utility>
 
 namespace plumb {
 namespace {
@@ -14,17 +14,28 @@ struct Bins {
     Box bounds[3][bin_count];
     std::uint32_t count[3][bin_count]{};
 
-    void add(std::span<const PrimitiveRef> refs, const BinClassifier& classifier) {
+    void add(const PrimitiveRef& ref, const BinClassifier& classifier) {
         const Float4 last = float4::broadcast(bin_count - 1);
-        for (const PrimitiveRef& ref : refs) {
-            const Box box = ref.box();
-            std::int32_t bin[4];
-            float4::truncate(float4::min(classifier.position(centroid(box)), last), bin);
-            for (int axis = 0; axis < 3; ++axis) {
-                bounds[axis][bin[axis]].extend(box);
-                ++count[axis][bin[axis]];
-            }
+        const Box box = ref.box();
+        std::int32_t bin[4];
+        float4::truncate(float4::min(classifier.position(centroid(box)), last), bin);
+        for (int axis = 0; axis < 3; ++axis) {
+            bounds[axis][bin[axis]].extend(box);
+            ++count[axis][bin[axis]];
         }
+    }
+    void add(std::span<const PrimitiveRef> refs, const BinClassifier& classifier) {
+        std::size_t i = 0;
+        if (refs.size() > 512) {
+            Bins second;
+            for (; i + 1 < refs.size(); i += 2) {
+                add(refs[i], classifier);
+                second.add(refs[i + 1], classifier);
+            }
+            add(second);
+        }
+        for (; i < refs.size(); ++i)
+            add(refs[i], classifier);
     }
     void add(const Bins& other) {
         for (int axis = 0; axis < 3; ++axis)
@@ -123,31 +134,14 @@ std::optional<BinnedSplit> best_binned_split(const PrimitiveRange& range, Float4
                        best.cost};
 }
 
-/// The i-th primitive that stands on the left and belongs to the right changes places with the
-/// i-th that stands on the right and belongs to the left.
 void partition(const PrimitiveRange& range, const BinnedSplit& split, PrimitiveRange& left,
-               PrimitiveRange& right, const Workers& /*workers*/) {
-    left = {range.refs.first(split.left_count), split.left, {}};
-    right = {range.refs.subspan(split.left_count), split.right, {}};
-    PrimitiveRef* l = left.refs.data();
-    PrimitiveRef* r = right.refs.data();
-    PrimitiveRef* const l_end = l + left.size();
-    PrimitiveRef* const r_end = r + right.size();
-    const auto skip = [&](PrimitiveRef*& ref, const PrimitiveRef* end, bool side, Box& centroids) {
-        for (; ref != end; ++ref) {
-            const Float4 c = centroid(ref->box());
-            if (split.goes_left(c) != side)
-                break;
-            centroids.extend_point(c);
-        }
-    };
-    for (;;) {
-        skip(l, l_end, true, left.centroids);
-        skip(r, r_end, false, right.centroids);
-        if (l == l_end)
-            break;
-        std::swap(*l, *r);
-    }
+               PrimitiveRange& right, const Workers& workers) {
+    left.bounds = split.left;
+    right.bounds = split.right;
+    partition(
+        range.refs, split.left_count,
+        [&split](const PrimitiveRef&, Float4 centroid) { return split.goes_left(centroid); }, left,
+        right, workers);
 }
 
 } // namespace plumb

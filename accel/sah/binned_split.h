@@ -38,9 +38,10 @@ struct BinnedSplit {
     Box left, right; ///< boxes of the two sides
     float cost;      ///< area times leaf_cost of both sides, half areas scaled by the builder
 
-    [[nodiscard]] bool goes_left(Float4 centroid) const {
-        const auto plane = float4::broadcast(static_cast<float>(first_right_bin));
-        return ((float4::less(classifier.position(centroid), plane) >> axis) & 1u) != 0;
+    /// 1 or 0.
+    [[nodiscard]] unsigned goes_left(Float4 centroid) const {
+        const Float4 plane = float4::broadcast(static_cast<float>(first_right_bin));
+        return (float4::less(classifier.position(centroid), plane) >> axis) & 1u;
     }
 };
 

@@ -9,8 +9,8 @@
 namespace plumb {
 namespace {
 
-/// Right subtrees of at least this size are pieces of their own where there are threads to build
-/// them. The tree does not depend on it.
+/// Below nodes of at least this size the right subtree is a piece of its own where there are
+/// threads to build it. The tree does not depend on it.
 constexpr std::size_t branch_size = 4096;
 
 /// Halves the range by count along the longest axis of the centroids; ties by number.
@@ -47,7 +47,7 @@ class Builder {
         piece.nodes[node].first = children;
         piece.nodes[children].bounds = half[0].bounds.bounds();
         piece.nodes[children + 1].bounds = half[1].bounds.bounds();
-        if (workers_.count() == 1 || half[1].size() < branch_size) {
+        if (workers_.count() == 1 || range.size() < branch_size) {
             build(half[0], children, depth + 1, piece);
             build(half[1], children + 1, depth + 1, piece);
             return;

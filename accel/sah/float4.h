@@ -7,6 +7,7 @@
 #include "accel/math/bounds.h"
 
 #include <cstdint>
+#include <limits>
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -45,6 +46,11 @@ inline float first(Float4 a) { return _mm_cvtss_f32(a); }
 /// Bit i: whether a < b in lane i.
 inline unsigned less(Float4 a, Float4 b) {
     return static_cast<unsigned>(_mm_movemask_ps(_mm_cmplt_ps(a, b)));
+}
+/// The point where `bit` is 1; where it is 0 a NaN, which min(x, b) and max(x, b) answer with b.
+inline Float4 only_if(unsigned bit, Float4 point) {
+    const __m128i none = _mm_set1_epi32(static_cast<int>(bit) - 1);
+    return _mm_or_ps(point, _mm_castsi128_ps(none));
 }
 /// Each lane without its fraction; below 2^31.
 inline void truncate(Float4 a, std::int32_t (&out)[4]) {
@@ -96,6 +102,9 @@ inline unsigned less(Float4 a, Float4 b) {
         mask |= (a.lane[i] < b.lane[i] ? 1u : 0u) << i;
     return mask;
 }
+inline Float4 only_if(unsigned bit, Float4 point) {
+    return bit != 0 ? point : broadcast(std::numeric_limits<float>::quiet_NaN());
+}
 inline void truncate(Float4 a, std::int32_t (&out)[4]) {
     for (int i = 0; i < 4; ++i)
         out[i] = static_cast<std::int32_t>(a.lane[i]);
@@ -112,9 +121,10 @@ struct Box {
         lower = min(lower, other.lower);
         upper = max(upper, other.upper);
     }
+    /// Ignores a NaN.
     void extend_point(Float4 point) {
-        lower = min(lower, point);
-        upper = max(upper, point);
+        lower = min(point, lower);
+        upper = max(point, upper);
     }
     [[nodiscard]] Float4 extent() const { return subtract(upper, lower); }
     /// Half the surface area after scaling by `scale`; not for empty boxes.

@@ -6,59 +6,13 @@
 #include "accel/sah/check_tree.h"
 #include "accel/sah/sah_cost.h"
 #include "tests/accel/intersector_suite.h"
+#include "tests/support/hard_scenes.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace plumb::test {
 namespace {
-
-struct NamedScene {
-    const char* name;
-    TestGeometry geometry;
-};
-
-/// Scenes on which builders fail: equal centroids, boxes at 2^i, boxes in boxes, flat, empty.
-std::vector<NamedScene> hard_scenes() {
-    std::vector<NamedScene> scenes;
-    Random random(121);
-    const auto add = [&](const char* name, Mesh mesh) {
-        scenes.push_back({name, TestGeometry(std::move(mesh))});
-    };
-    scenes.push_back({"nothing", TestGeometry{}});
-    scenes.push_back({"mixed", mixed_scene(122)});
-    add("one triangle", repeated_triangle(1));
-    add("two copies", repeated_triangle(2));
-    add("nine copies", repeated_triangle(9));
-    add("100000 copies", repeated_triangle(100000));
-    add("soup", triangle_soup(random, 20000, 0.05f));
-    add("needles", needles(random, 5000, 1e-4f));
-    add("plane", plane({0, 0, 0}, 10, 100));
-    add("boxes at 2^i", boxes_at_powers_of_two(60));
-    add("1000 nested boxes", nested_boxes(1000));
-    add("displaced sphere", displaced_sphere({0, 0, 0}, 1, 160));
-    TestGeometry spheres;
-    for (const Sphere& s : sphere_grid(20, 0.3f))
-        spheres.add(s);
-    for (int i = 0; i < 1000; ++i)
-        spheres.add(Sphere{{3, 3, 3}, static_cast<float>(i + 1)}); // concentric
-    scenes.push_back({"spheres", std::move(spheres)});
-    Mesh broken = triangle_soup(random, 100, 1);
-    for (std::size_t i = 0; i < broken.positions.size(); i += 7)
-        broken.positions[i].y = i % 2 == 0 ? infinity : std::nanf("");
-    add("partly not traceable", std::move(broken));
-    Mesh huge;
-    for (int i = 0; i < 100; ++i)
-        huge.add_triangle(random.point(-max_coordinate, max_coordinate),
-                          random.point(-max_coordinate, max_coordinate),
-                          random.point(-max_coordinate, max_coordinate));
-    add("huge", std::move(huge));
-    Mesh tiny = triangle_soup(random, 500, 0.1f);
-    for (Vec3& p : tiny.positions)
-        p = 1e-38f * p;
-    add("tiny", std::move(tiny));
-    return scenes;
-}
 
 int ceil_log2(std::size_t n) {
     int bits = 0;
