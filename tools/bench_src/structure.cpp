@@ -1,0 +1,138 @@
+#include "tools/bench_src/structure.h"
+
+#include "tools/bench_src/cpu.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+
+namespace plumb::bench {
+namespace {
+
+std::uint64_t checksum_of(const Hit& hit) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(hit.t)} + hit.primitive;
+}
+
+Hit anonymous(bool found) { return found ? Hit{0, 0, 0, 0, 0, invalid_id} : Hit{}; }
+
+std::uint64_t trace_single(const Intersector& intersector, std::span<const Ray> rays) {
+    std::uint64_t sum = 0;
+    for (const Ray& ray : rays)
+        sum += checksum_of(intersector.closest(ray));
+    return sum;
+}
+
+std::uint64_t trace_single_any(const Intersector& intersector, std::span<const Ray> rays) {
+    std::uint64_t sum = 0;
+    for (const Ray& ray : rays)
+        sum += intersector.occluded(ray) ? 1u : 0u;
+    return sum;
+}
+
+/// Calls trace(rays, first) for runs of at most stream_size rays.
+template <class F> void for_streams(std::span<const Ray> rays, F&& trace) {
+    for (std::size_t first = 0; first < rays.size(); first += stream_size)
+        trace(rays.subspan(first, std::min(stream_size, rays.size() - first)), first);
+}
+
+std::uint64_t trace_streams(const Intersector& intersector, std::span<const Ray> rays) {
+    std::array<Hit, stream_size> hits;
+    std::uint64_t sum = 0;
+    for_streams(rays, [&](std::span<const Ray> stream, std::size_t) {
+        intersector.closest(stream, std::span(hits).first(stream.size()));
+        for (std::size_t i = 0; i < stream.size(); ++i)
+            sum += checksum_of(hits[i]);
+    });
+    return sum;
+}
+
+std::uint64_t trace_streams_any(const Intersector& intersector, std::span<const Ray> rays) {
+    std::array<std::uint8_t, stream_size> found{};
+    std::uint64_t sum = 0;
+    for_streams(rays, [&](std::span<const Ray> stream, std::size_t) {
+        intersector.occluded(stream, std::span(found).first(stream.size()));
+        for (std::size_t i = 0; i < stream.size(); ++i)
+            sum += found[i];
+    });
+    return sum;
+}
+
+} // namespace
+
+void Structure::build() {
+    own_.reset();
+    embree_.reset();
+    if (config_.accel == AccelKind::embree) {
+        embree_ = std::make_unique<EmbreePeer>(view_, config_.embree);
+        build_s_.push_back(embree_->scene().commit_s());
+        return;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    own_ = make_intersector(config_.accel, view_, config_.build);
+    build_s_.push_back(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+AccelStats Structure::stats() const {
+    if (own_)
+        return own_->stats();
+    AccelStats stats;
+    stats.bytes = embree_->scene().bytes();
+    stats.primitive_count = view_.primitive_count();
+    return stats;
+}
+
+TraversalCounts Structure::count(const RaySet& rays) const {
+    return own_ ? own_->count(rays.rays, rays.any_hit()) : TraversalCounts{};
+}
+
+Structure::Prepared Structure::prepare(const RaySet& rays, bool wide) const {
+    Prepared prepared{&rays, wide, std::nullopt};
+    if (embree_)
+        prepared.embree.emplace(rays.rays, rays.any_hit(), wide ? 16 : 1);
+    return prepared;
+}
+
+Pass Structure::trace(const Prepared& prepared) const {
+    const std::vector<Ray>& rays = prepared.rays->rays;
+    const bool any_hit = prepared.rays->any_hit();
+    Pass pass;
+    const double start = thread_cpu_s();
+    if (embree_)
+        pass.checksum = embree_->trace(*prepared.embree);
+    else if (prepared.wide)
+        pass.checksum = any_hit ? trace_streams_any(*own_, rays) : trace_streams(*own_, rays);
+    else
+        pass.checksum = any_hit ? trace_single_any(*own_, rays) : trace_single(*own_, rays);
+    pass.cpu_s = thread_cpu_s() - start;
+    return pass;
+}
+
+std::uint64_t Structure::answers(const Prepared& prepared, std::span<Hit> hits) const {
+    const std::span<const Ray> rays = prepared.rays->rays;
+    const bool any_hit = prepared.rays->any_hit();
+    if (embree_)
+        return embree_->trace(*prepared.embree, hits);
+    if (prepared.wide && any_hit) {
+        std::vector<std::uint8_t> found(rays.size());
+        for_streams(rays, [&](std::span<const Ray> stream, std::size_t first) {
+            own_->occluded(stream, std::span(found).subspan(first, stream.size()));
+        });
+        std::transform(found.begin(), found.end(), hits.begin(),
+                       [](std::uint8_t f) { return anonymous(f != 0); });
+    } else if (prepared.wide) {
+        for_streams(rays, [&](std::span<const Ray> stream, std::size_t first) {
+            own_->closest(stream, hits.subspan(first, stream.size()));
+        });
+    } else {
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            hits[i] = any_hit ? anonymous(own_->occluded(rays[i])) : own_->closest(rays[i]);
+    }
+    std::uint64_t sum = 0;
+    for (const Hit& hit : hits)
+        sum += any_hit ? (hit.valid() ? 1u : 0u) : checksum_of(hit);
+    return sum;
+}
+
+} // namespace plumb::bench
