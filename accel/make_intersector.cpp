@@ -13,7 +13,7 @@ std::unique_ptr<Intersector> make_intersector(AccelKind kind, GeometryView geome
     switch (kind) {
     case AccelKind::naive:
         return std::make_unique<NaiveIntersector>(geometry, options.triangle_test);
-    case AccelKind::sah: return make_sah_intersector(geometry, options.triangle_test);
+    case AccelKind::sah: return std::make_unique<SahIntersector>(geometry, options);
     case AccelKind::embree: return make_embree_intersector(geometry, options);
     }
     throw std::runtime_error("unknown acceleration structure");

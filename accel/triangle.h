@@ -108,7 +108,7 @@ RT_HD inline bool moeller_trumbore_candidate(const PreparedRay& ray, Vec3 v0, Ve
 template <TriangleTest Test = TriangleTest::watertight>
 RT_HD inline bool intersect_triangle(const PreparedRay& ray, const Vec3& v0, const Vec3& v1,
                                      const Vec3& v2, float tmax, PrimitiveHit& hit) {
-    // sah/block_test.h repeats the watertight path in lanes: change both.
+    // sah/isa/triangle_lanes.h repeats both paths in lanes: change both.
     if constexpr (Test == TriangleTest::watertight) {
         if (!detail::watertight_candidate(ray, v0, v1, v2, hit))
             return false;

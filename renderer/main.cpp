@@ -1,8 +1,8 @@
 /// \file  The command line program: one straight line from scene to image.
 
-#include "accel/sah/sah_intersector.h"
-#include "cuda/cuda_render.h"
 #include "accel/parallel/parallel.h"
+#include "accel/sah/build_sah.h"
+#include "cuda/cuda_render.h"
 #include "renderer/io/write_file.h"
 #include "renderer/options.h"
 #include "renderer/report.h"
@@ -77,8 +77,6 @@ bool chooses_cuda(const Options& options) {
 Film render_with_progress(const Options& options, const Scene& scene, const SceneTables& tables,
                           RunReport& report) {
     const bool on_cuda = chooses_cuda(options);
-    const auto intersector = make_intersector(options.accel, tables.geometry(), options.build);
-    report.build = intersector->stats();
     report.accel = name_of(options.accel);
     report.threads = thread_count(options.threads);
     ProgressPrinter progress(options.quiet);
@@ -92,9 +90,10 @@ Film render_with_progress(const Options& options, const Scene& scene, const Scen
     const Features needed = features_of(scene);
     if (on_cuda) {
         try {
-            const auto& sah = static_cast<const SahIntersector&>(*intersector);
+            const SahTree tree = build_sah(tables.geometry(), options.build.threads);
+            report.build = tree.stats();
             report.device = "cuda";
-            return render_on_cuda(job, needed, sah.view(), options.build.triangle_test, how,
+            return render_on_cuda(job, needed, tree.view(), options.build.triangle_test, how,
                                   report.render);
         } catch (const DeviceError& error) {
             if (options.device == Device::cuda)
@@ -104,6 +103,8 @@ Film render_with_progress(const Options& options, const Scene& scene, const Scen
             report.render = {};
         }
     }
+    const auto intersector = make_intersector(options.accel, tables.geometry(), options.build);
+    report.build = intersector->stats();
     return render(job, needed, *intersector, how, report.render);
 }
 

@@ -4,6 +4,7 @@
 #include "accel/sah/primitive_ref.h"
 
 #include <algorithm>
+#include <chrono>
 
 namespace plumb {
 namespace {
@@ -82,15 +83,10 @@ class Flattener {
 
     void set_lane(TriangleBlock& block, std::uint32_t lane, PrimitiveNumbers::Id id) const {
         const TriangleVertices t = geometry_.vertices(id.geometry, id.primitive);
-        const Bounds bounds = triangle_bounds(t.a, t.b, t.c);
         const Vec3 corners[3]{t.a, t.b, t.c};
         for (int i = 0; i < 3; ++i)
             for (int axis = 0; axis < 3; ++axis)
                 block.vertex[i][axis][lane] = corners[i][axis];
-        for (int axis = 0; axis < 3; ++axis) {
-            block.bounds[0][axis][lane] = bounds.lower[axis];
-            block.bounds[1][axis][lane] = bounds.upper[axis];
-        }
         block.geometry[lane] = id.geometry;
         block.primitive[lane] = id.primitive;
     }
@@ -116,9 +112,27 @@ SahView SahTree::view() const {
     return view;
 }
 
-SahTree build_sah(const GeometryView& geometry) {
+AccelStats SahTree::stats() const {
+    AccelStats stats;
+    stats.build_s = build_s;
+    stats.bytes = nodes.size() * sizeof(SahNode) + blocks.size() * sizeof(TriangleBlock) +
+                  spheres.size() * sizeof(SahSphere);
+    stats.node_count = inner_count + leaf_count;
+    stats.leaf_count = leaf_count;
+    stats.primitive_count = primitive_count;
+    stats.skipped_count = skipped_count;
+    stats.depth = depth;
+    stats.sah_cost = sah_cost;
+    return stats;
+}
+
+SahTree build_sah(const GeometryView& geometry, int threads) {
+    const auto start = std::chrono::steady_clock::now();
     SahTree tree;
-    Flattener(geometry, build_binary(geometry), tree).run();
+    // Without spatial splits: each triangle once.
+    const BinaryBvh binary = build_binary(geometry, {BuildQuality::medium, threads});
+    Flattener(geometry, binary, tree).run();
+    tree.build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return tree;
 }
 

@@ -1,31 +1,40 @@
-/// \file  The SAH tree as an Intersector.
+/// \file  The 8-wide SAH tree as an Intersector.
 #pragma once
 
 #include "accel/intersector.h"
-#include "accel/sah/build_sah.h"
+#include "accel/sah/isa/kernels.h"
 
 namespace plumb {
 
-class SahIntersector : public Intersector {
+class SahIntersector final : public Intersector {
   public:
-    using Intersector::closest;
-    using Intersector::occluded;
-    [[nodiscard]] AccelStats stats() const override;
-    /// What kernels traverse and upload. Valid as long as the intersector lives.
-    [[nodiscard]] const SahView& view() const { return view_; }
+    /// Builds; see build_binary and collapse for what it throws, and std::runtime_error for an
+    /// instruction set that this processor lacks.
+    SahIntersector(const GeometryView& geometry, const BuildOptions& options);
 
-  protected:
-    /// Builds; see build_sah for what it throws.
-    explicit SahIntersector(const GeometryView& geometry);
+    [[nodiscard]] Hit closest(const Ray& ray) const override {
+        return kernels_.closest(view_, ray);
+    }
+    [[nodiscard]] bool occluded(const Ray& ray) const override {
+        return kernels_.occluded(view_, ray);
+    }
+    void closest(std::span<const Ray> rays, std::span<Hit> hits) const override {
+        kernels_.closest_stream(view_, rays, hits);
+    }
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> found) const override {
+        kernels_.occluded_stream(view_, rays, found);
+    }
+    [[nodiscard]] TraversalCounts count(std::span<const Ray> rays, bool any_hit) const override {
+        return kernels_.count(view_, rays, any_hit);
+    }
+    [[nodiscard]] AccelStats stats() const override { return stats_; }
+    [[nodiscard]] const WideView& view() const { return view_; }
 
   private:
-    SahTree tree_;
-    SahView view_;
-    double build_s_ = 0;
+    WideBvh tree_;
+    WideView view_;
+    WideKernels kernels_;
+    AccelStats stats_;
 };
-
-/// One class a triangle test, so that no ray asks which.
-[[nodiscard]] std::unique_ptr<SahIntersector> make_sah_intersector(const GeometryView& geometry,
-                                                                   TriangleTest test);
 
 } // namespace plumb

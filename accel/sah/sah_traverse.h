@@ -4,7 +4,6 @@
 /// primitive's own box (settle), so the hit returned is the same for any tree and any order.
 #pragma once
 
-#include "accel/sah/block_test.h"
 #include "accel/sah/child_test.h"
 
 namespace plumb {
@@ -43,10 +42,13 @@ RT_HD inline bool visit_leaf(const SahView& view, ChildRef leaf, const PreparedR
     if (leaf.has_spheres())
         return visit_spheres(view, leaf, ray, tmax, visit);
     const TriangleBlock& block = view.blocks[leaf.first];
-    return visit_hits<Test>(ray, block, leaf.count(), tmax,
-                            [&](std::uint32_t lane, const PrimitiveHit& hit) {
-                                return visit(hit, block.geometry[lane], block.primitive[lane]);
-                            });
+    PrimitiveHit hit;
+    for (std::uint32_t lane = 0; lane < leaf.count(); ++lane)
+        if (intersect_triangle<Test>(ray, block.corner(0, lane), block.corner(1, lane),
+                                     block.corner(2, lane), tmax, hit) &&
+            visit(hit, block.geometry[lane], block.primitive[lane]))
+            return true;
+    return false;
 }
 
 } // namespace detail
@@ -68,8 +70,7 @@ template <TriangleTest Test>
             const SahNode& node = view.nodes[current.first];
             const ChildOverlap overlap = test(node);
             if (overlap.mask != 0) {
-                // The nearer child now, the other later. Branches, not selects: a guessed child is
-                // fetched before the test of its box is done, worth a third of the speed.
+                // The nearer child now, the other later.
                 if (overlap.mask == 1) {
                     current = node.child[0];
                 } else if (overlap.mask == 2) {

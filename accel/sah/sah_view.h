@@ -50,7 +50,6 @@ static_assert(sizeof(SahNode) == 64);
 /// zeros.
 struct alignas(32) TriangleBlock {
     float vertex[3][3][sah_max_leaf_size]; ///< [a, b, c][axis][lane]
-    float bounds[2][3][sah_max_leaf_size]; ///< primitive_bounds: [lower, upper][axis][lane]
     std::uint32_t geometry[sah_max_leaf_size], primitive[sah_max_leaf_size];
 
     [[nodiscard]] RT_HD Vec3 corner(int i, std::uint32_t lane) const {

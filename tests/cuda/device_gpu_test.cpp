@@ -3,7 +3,7 @@
 #include "cuda/cuda_render.h"
 #include "tests/support/render_scene.h"
 
-#include "accel/sah/sah_intersector.h"
+#include "accel/sah/build_sah.h"
 #include "renderer/scene/scene_tables.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,9 @@ class OnDevice : public ::testing::TestWithParam<std::filesystem::path> {
         scene.sampler.kind = variant.sampler;
         scene.path.estimator = variant.estimator;
         const SceneTables tables(scene);
-        const auto sah = make_sah_intersector(tables.geometry(), variant.triangle_test);
+        const auto sah =
+            make_intersector(AccelKind::sah, tables.geometry(), {variant.triangle_test});
+        const SahTree tree = build_sah(tables.geometry());
         const RenderJob job = make_job(scene, tables.view());
         const Features needed = features_of(scene);
         RenderOptions how;
@@ -50,7 +52,7 @@ class OnDevice : public ::testing::TestWithParam<std::filesystem::path> {
         RenderStats cpu_stats, gpu_stats;
         const Image cpu = render(job, needed, *sah, how, cpu_stats).resolve();
         const Image gpu =
-            render_on_cuda(job, needed, sah->view(), variant.triangle_test, how, gpu_stats)
+            render_on_cuda(job, needed, tree.view(), variant.triangle_test, how, gpu_stats)
                 .resolve();
         EXPECT_EQ(bits_of(cpu), bits_of(gpu));
         EXPECT_EQ(cpu.variance, gpu.variance);

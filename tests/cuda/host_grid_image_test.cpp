@@ -4,7 +4,7 @@
 #include "tests/cuda/host_executor.h"
 #include "tests/support/box_scenes.h"
 
-#include "accel/sah/sah_intersector.h"
+#include "accel/sah/build_sah.h"
 #include "renderer/io/load_scene.h"
 #include "renderer/scene/scene_tables.h"
 
@@ -54,14 +54,14 @@ Outcome on_cpu(const Scene& scene, AccelKind kind, RenderOptions how = {},
 template <Features F, TriangleTest Test = TriangleTest::watertight>
 Outcome on_grid(const Scene& scene, const GridSetup& setup = {}, const RenderOptions& how = {}) {
     const SceneTables tables(scene);
-    const auto sah = make_sah_intersector(tables.geometry(), Test);
+    const SahTree tree = build_sah(tables.geometry());
     const RenderJob job = make_job(scene, tables.view());
-    HostBlock block(placed_size(job, sah->view()));
+    HostBlock block(placed_size(job, tree.view()));
     Arena arena = block.arena();
     DeviceJob device;
     device.job = job;
     device.job.scene = place(job.scene, arena);
-    device.tree = place(sah->view(), arena);
+    device.tree = place(tree.view(), arena);
     device.with_variance = how.variance;
     HostExecutor<F, Test> executor(device, setup.block_size);
     Outcome result;

@@ -2,7 +2,7 @@
 
 #include "tests/cuda/host_executor.h"
 
-#include "accel/sah/sah_intersector.h"
+#include "accel/sah/build_sah.h"
 
 #include <gtest/gtest.h>
 
@@ -89,8 +89,8 @@ TEST(PlaceTree, ATreeIsCopiedWhole) {
     const std::vector<Triangle> triangles(20, Triangle{0, 1, 2});
     const std::vector<MeshView> meshes{{positions, triangles}};
     const std::vector<Sphere> spheres{{{3, 0, 0}, 1}};
-    const auto sah = make_sah_intersector({meshes, spheres}, TriangleTest::watertight);
-    const SahView tree = sah->view();
+    const SahTree built = build_sah({meshes, spheres});
+    const SahView tree = built.view();
     Arena measure;
     static_cast<void>(place(tree, measure));
     HostBlock block(measure.used());

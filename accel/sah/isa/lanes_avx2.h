@@ -1,0 +1,52 @@
+/// \file  Eight floats in one register: AVX2 and FMA3. For avx2.cpp only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <immintrin.h>
+
+namespace plumb {
+namespace {
+
+/// For each mask the numbers of the lanes whose bits are set, a byte each, lowest first.
+inline constexpr auto packing = [] {
+    std::array<std::uint64_t, 256> table{};
+    for (unsigned mask = 0; mask < 256; ++mask)
+        for (unsigned lane = 0, count = 0; lane < 8; ++lane)
+            if ((mask >> lane & 1u) != 0)
+                table[mask] |= std::uint64_t{lane} << (8 * count++);
+    return table;
+}();
+
+struct Lanes {
+    using Floats = __m256;
+
+    static Floats load(const float* p) { return _mm256_load_ps(p); }
+    static void store(float* p, Floats x) { _mm256_store_ps(p, x); }
+    static Floats broadcast(float x) { return _mm256_set1_ps(x); }
+    static Floats multiply_add(Floats a, Floats b, Floats c) { return _mm256_fmadd_ps(a, b, c); }
+    /// a < b ? a : b: b where either is NaN.
+    static Floats min(Floats a, Floats b) { return _mm256_min_ps(a, b); }
+    /// a > b ? a : b: b where either is NaN.
+    static Floats max(Floats a, Floats b) { return _mm256_max_ps(a, b); }
+    static Floats absolute(Floats x) { return _mm256_andnot_ps(broadcast(-0.0f), x); }
+    static Floats exclusive_or(Floats a, Floats b) { return _mm256_xor_ps(a, b); }
+    /// One bit a lane: its sign, or the outcome of a comparison (false where either is NaN).
+    static unsigned signs(Floats x) { return static_cast<unsigned>(_mm256_movemask_ps(x)); }
+    static unsigned equal(Floats a, Floats b) { return signs(_mm256_cmp_ps(a, b, _CMP_EQ_OQ)); }
+    static unsigned less(Floats a, Floats b) { return signs(_mm256_cmp_ps(a, b, _CMP_LT_OQ)); }
+    static unsigned not_greater(Floats a, Floats b) {
+        return signs(_mm256_cmp_ps(a, b, _CMP_LE_OQ));
+    }
+    /// Writes the numbers whose bit is set, in order, and anything behind them up to eight.
+    static void store_packed(std::uint32_t* to, const std::uint32_t* from, unsigned mask) {
+        const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+        const __m256i lanes =
+            _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(packing[mask])));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                            _mm256_permutevar8x32_epi32(all, lanes));
+    }
+};
+
+} // namespace
+} // namespace plumb

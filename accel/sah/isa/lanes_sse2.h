@@ -1,0 +1,73 @@
+/// \file  Eight floats in two registers of four: SSE2, which every x86-64 has. For portable.cpp.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <emmintrin.h>
+
+namespace plumb {
+namespace {
+
+struct Lanes {
+    struct Floats {
+        __m128 low, high;
+
+        friend Floats operator+(Floats a, Floats b) {
+            return {_mm_add_ps(a.low, b.low), _mm_add_ps(a.high, b.high)};
+        }
+        friend Floats operator-(Floats a, Floats b) {
+            return {_mm_sub_ps(a.low, b.low), _mm_sub_ps(a.high, b.high)};
+        }
+        friend Floats operator*(Floats a, Floats b) {
+            return {_mm_mul_ps(a.low, b.low), _mm_mul_ps(a.high, b.high)};
+        }
+        friend Floats operator/(Floats a, Floats b) {
+            return {_mm_div_ps(a.low, b.low), _mm_div_ps(a.high, b.high)};
+        }
+    };
+
+    static Floats load(const float* p) { return {_mm_load_ps(p), _mm_load_ps(p + 4)}; }
+    static void store(float* p, Floats x) {
+        _mm_store_ps(p, x.low);
+        _mm_store_ps(p + 4, x.high);
+    }
+    static Floats broadcast(float x) { return {_mm_set1_ps(x), _mm_set1_ps(x)}; }
+    /// Rounds twice, which the margins of WideRay allow for.
+    static Floats multiply_add(Floats a, Floats b, Floats c) { return a * b + c; }
+    /// a < b ? a : b: b where either is NaN.
+    static Floats min(Floats a, Floats b) {
+        return {_mm_min_ps(a.low, b.low), _mm_min_ps(a.high, b.high)};
+    }
+    /// a > b ? a : b: b where either is NaN.
+    static Floats max(Floats a, Floats b) {
+        return {_mm_max_ps(a.low, b.low), _mm_max_ps(a.high, b.high)};
+    }
+    static Floats absolute(Floats x) {
+        const __m128 sign = _mm_set1_ps(-0.0f);
+        return {_mm_andnot_ps(sign, x.low), _mm_andnot_ps(sign, x.high)};
+    }
+    static Floats exclusive_or(Floats a, Floats b) {
+        return {_mm_xor_ps(a.low, b.low), _mm_xor_ps(a.high, b.high)};
+    }
+    /// One bit a lane: its sign, or the outcome of a comparison (false where either is NaN).
+    static unsigned signs(Floats x) {
+        return static_cast<unsigned>(_mm_movemask_ps(x.low) | _mm_movemask_ps(x.high) << 4);
+    }
+    static unsigned equal(Floats a, Floats b) {
+        return signs({_mm_cmpeq_ps(a.low, b.low), _mm_cmpeq_ps(a.high, b.high)});
+    }
+    static unsigned less(Floats a, Floats b) {
+        return signs({_mm_cmplt_ps(a.low, b.low), _mm_cmplt_ps(a.high, b.high)});
+    }
+    static unsigned not_greater(Floats a, Floats b) {
+        return signs({_mm_cmple_ps(a.low, b.low), _mm_cmple_ps(a.high, b.high)});
+    }
+    /// Writes the numbers whose bit is set, in order.
+    static void store_packed(std::uint32_t* to, const std::uint32_t* from, unsigned mask) {
+        for (; mask != 0; mask &= mask - 1)
+            *to++ = from[std::countr_zero(mask)];
+    }
+};
+
+} // namespace
+} // namespace plumb

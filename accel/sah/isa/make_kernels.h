@@ -1,0 +1,76 @@
+/// \file  Fills a table of kernels from the templates. For the files of one instruction set only.
+#pragma once
+
+#include "accel/sah/isa/kernels.h"
+#include "accel/sah/isa/wide_traverse.h"
+#include "accel/sah/wide_careful.h"
+
+namespace plumb {
+namespace {
+
+/// Whether this thread's ray starts near the one before it, within 1/64 of the scene, and so is
+/// likely to do the same. The first ray of a thread does not matter.
+inline bool resembles_last(const Ray& ray, float reach) {
+    alignas(16) thread_local float last[4]{};
+    const __m128 origin = _mm_loadu_ps(&ray.origin.x);
+    const __m128 step = absolute4(_mm_sub_ps(origin, _mm_load_ps(last)));
+    _mm_store_ps(last, origin);
+    return (_mm_movemask_ps(_mm_cmplt_ps(step, _mm_set1_ps(reach * 0x1p-6f))) & 7) == 7;
+}
+
+template <class V, TriangleTest Test> struct Kernels {
+    static Hit closest(const WideView& tree, const Ray& ray) {
+        if (!WideRay::is_ordinary(ray, tree.reach)) [[unlikely]]
+            return closest_careful(tree, ray, Test);
+        if (tree.empty)
+            return {};
+        return resembles_last(ray, tree.reach)
+                   ? closest_ordinary<V, Test, Guess::branch>(tree, ray, NoCounter{})
+                   : closest_ordinary<V, Test, Guess::select>(tree, ray, NoCounter{});
+    }
+    static bool occluded(const WideView& tree, const Ray& ray) {
+        if (!WideRay::is_ordinary(ray, tree.reach)) [[unlikely]]
+            return occluded_careful(tree, ray, Test);
+        if (tree.empty)
+            return false;
+        return resembles_last(ray, tree.reach)
+                   ? occluded_ordinary<V, Test, Guess::branch>(tree, ray, NoCounter{})
+                   : occluded_ordinary<V, Test, Guess::select>(tree, ray, NoCounter{});
+    }
+    static void closest_stream(const WideView& tree, std::span<const Ray> rays,
+                               std::span<Hit> hits) {
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            hits[i] = closest(tree, rays[i]);
+    }
+    static void occluded_stream(const WideView& tree, std::span<const Ray> rays,
+                                std::span<std::uint8_t> found) {
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            found[i] = occluded(tree, rays[i]) ? 1 : 0;
+    }
+    static TraversalCounts count(const WideView& tree, std::span<const Ray> rays, bool any_hit) {
+        TraversalCounts counts;
+        for (const Ray& ray : rays) {
+            if (tree.empty || !WideRay::is_ordinary(ray, tree.reach))
+                continue;
+            if (any_hit)
+                occluded_ordinary<V, Test, Guess::select>(tree, ray, Counter{&counts});
+            else
+                closest_ordinary<V, Test, Guess::select>(tree, ray, Counter{&counts});
+        }
+        return counts;
+    }
+};
+
+template <class V, TriangleTest Test> WideKernels kernels_with() {
+    using K = Kernels<V, Test>;
+    return {K::closest, K::occluded, K::closest_stream, K::occluded_stream, K::count};
+}
+
+template <class V> WideKernels make_kernels(TriangleTest test) {
+    return test == TriangleTest::moeller_trumbore
+               ? kernels_with<V, TriangleTest::moeller_trumbore>()
+               : kernels_with<V, TriangleTest::watertight>();
+}
+
+} // namespace
+} // namespace plumb

@@ -1,0 +1,184 @@
+/// \file  Eight triangles against one ray.
+///
+/// Operation by operation what intersect_triangle does, in the same order, so that a lane holds the
+/// same bits as the scalar: whoever changes one changes the other, and the tests compare them.
+/// Where an edge function is zero the scalar test falls back on double; those lanes are handed to
+/// it.
+#pragma once
+
+#include "accel/sah/isa/wide_ray.h"
+#include "accel/sah/wide_bvh.h"
+
+#include <bit>
+
+namespace plumb {
+namespace {
+
+/// Candidate hits by lane.
+template <class V> struct LaneHits {
+    alignas(32) float t[wide_width], u[wide_width], v[wide_width];
+    unsigned hit;   ///< lanes with tmin < t <= tmax; t, u and v hold there
+    unsigned exact; ///< lanes that intersect_triangle has to decide
+};
+
+/// settle() and the clamp before it, for the lanes in `candidates`: t is moved into the box of the
+/// lane's vertices, then into triangle_bounds. Leaves the lanes that are hits. Coordinates are
+/// mirrored where the ray runs down an axis, which negates exactly, so that the near plane is
+/// always the lower one.
+template <class V>
+[[gnu::always_inline]] inline unsigned settle_lanes(const WideRay& ray, const WideTriangles& block,
+                                                    float tmax, unsigned candidates,
+                                                    typename V::Floats& t) {
+    using Floats = typename V::Floats;
+    Floats lower[3], upper[3], origin[3], inverse[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        const Floats flip = V::broadcast(ray.sign[axis]);
+        const auto corner = [&](int i) {
+            return V::exclusive_or(V::load(block.vertex[i][axis]), flip);
+        };
+        const Floats a = corner(0), b = corner(1), c = corner(2);
+        lower[axis] = V::min(a, V::min(b, c));
+        upper[axis] = V::max(a, V::max(b, c));
+        origin[axis] = V::exclusive_or(V::broadcast(ray.origin[axis]), flip);
+        inverse[axis] = V::exclusive_or(V::broadcast(ray.inverse[axis]), flip);
+    }
+    Floats near, far;
+    const auto measure = [&] {
+        near = V::max((lower[0] - origin[0]) * inverse[0], V::broadcast(-infinity));
+        far = V::min((upper[0] - origin[0]) * inverse[0], V::broadcast(infinity));
+        for (int axis = 1; axis < 3; ++axis) {
+            near = V::max((lower[axis] - origin[axis]) * inverse[axis], near);
+            far = V::min((upper[axis] - origin[axis]) * inverse[axis], far);
+        }
+        far = V::max(far * V::broadcast(slab_padding), far); // unpadded where negative
+    };
+    measure();
+    t = V::min(V::max(near, far), V::max(V::min(near, far), t));
+    const Floats margin =
+        V::broadcast(8 * unit_roundoff) *
+        V::max(upper[0] - lower[0], V::max(upper[1] - lower[1], upper[2] - lower[2]));
+    const Floats ulp = V::broadcast(2 * unit_roundoff);
+    for (int axis = 0; axis < 3; ++axis) {
+        lower[axis] = lower[axis] - (margin + ulp * V::absolute(lower[axis]));
+        upper[axis] = upper[axis] + (margin + ulp * V::absolute(upper[axis]));
+    }
+    measure();
+    const unsigned number = V::equal(t, t);
+    t = V::min(V::max(t, near), far);
+    return candidates & V::not_greater(near, far) & number & V::less(V::broadcast(ray.tmin), t) &
+           V::not_greater(t, V::broadcast(tmax)) & V::less(t, V::broadcast(infinity));
+}
+
+/// Vertices relative to the origin and sheared; edge functions.
+template <class V>
+[[gnu::always_inline]] inline void test_watertight(const WideRay& ray, const WideTriangles& block,
+                                                   float tmax, LaneHits<V>& hits) {
+    using Floats = typename V::Floats;
+    const Floats ox = V::broadcast(ray.origin[ray.kx]), oy = V::broadcast(ray.origin[ray.ky]);
+    const Floats oz = V::broadcast(ray.origin[ray.kz]);
+    const Floats shear_x = V::broadcast(ray.shear[ray.kx]);
+    const Floats shear_y = V::broadcast(ray.shear[ray.ky]);
+    Floats x[3], y[3], z[3];
+    for (int i = 0; i < 3; ++i) {
+        z[i] = V::load(block.vertex[i][ray.kz]) - oz;
+        x[i] = V::load(block.vertex[i][ray.kx]) - ox - shear_x * z[i];
+        y[i] = V::load(block.vertex[i][ray.ky]) - oy - shear_y * z[i];
+    }
+    const Floats u = x[2] * y[1] - y[2] * x[1];
+    const Floats v = x[0] * y[2] - y[0] * x[2];
+    const Floats w = x[1] * y[0] - y[1] * x[0];
+    const Floats none = V::broadcast(0);
+    hits.exact = V::equal(u, none) | V::equal(v, none) | V::equal(w, none);
+    const unsigned mixed = V::signs(V::exclusive_or(u, v)) | V::signs(V::exclusive_or(v, w));
+    unsigned inside = ~(mixed | hits.exact) & 0xffu;
+    hits.hit = 0;
+    if (inside == 0)
+        return;
+    const Floats det = u + v + w;
+    const Floats weight_b = v / det, weight_c = w / det;
+    Floats t =
+        (u / det * z[0] + weight_b * z[1] + weight_c * z[2]) * V::broadcast(ray.inverse[ray.kz]);
+    inside &= ~V::equal(det, none) & V::less(V::absolute(det), V::broadcast(infinity));
+    hits.hit = settle_lanes<V>(ray, block, tmax, inside, t);
+    if (hits.hit == 0)
+        return;
+    V::store(hits.t, t);
+    V::store(hits.u, weight_b);
+    V::store(hits.v, weight_c);
+}
+
+template <class V> struct Lanes3 {
+    typename V::Floats x, y, z;
+
+    Lanes3(typename V::Floats a, typename V::Floats b, typename V::Floats c) : x(a), y(b), z(c) {}
+    explicit Lanes3(const float (&p)[4])
+        : x(V::broadcast(p[0])), y(V::broadcast(p[1])), z(V::broadcast(p[2])) {}
+    Lanes3(const WideTriangles& block, int corner)
+        : x(V::load(block.vertex[corner][0])), y(V::load(block.vertex[corner][1])),
+          z(V::load(block.vertex[corner][2])) {}
+    friend Lanes3 operator-(const Lanes3& a, const Lanes3& b) {
+        return {a.x - b.x, a.y - b.y, a.z - b.z};
+    }
+    friend typename V::Floats dot(const Lanes3& a, const Lanes3& b) {
+        return a.x * b.x + a.y * b.y + a.z * b.z;
+    }
+    friend Lanes3 cross(const Lanes3& a, const Lanes3& b) {
+        return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    }
+};
+
+template <class V>
+[[gnu::always_inline]] inline void test_moeller_trumbore(const WideRay& ray,
+                                                         const WideTriangles& block, float tmax,
+                                                         LaneHits<V>& hits) {
+    using Floats = typename V::Floats;
+    const Lanes3<V> a(block, 0), direction(ray.direction);
+    const Lanes3<V> e1 = Lanes3<V>(block, 1) - a, e2 = Lanes3<V>(block, 2) - a;
+    const Floats zero = V::broadcast(0), one = V::broadcast(1);
+    const Lanes3<V> p = cross(direction, e2);
+    const Floats det = dot(e1, p);
+    const Lanes3<V> s = Lanes3<V>(ray.origin) - a;
+    const Floats u = dot(s, p) / det;
+    const Lanes3<V> q = cross(s, e1);
+    const Floats v = dot(direction, q) / det;
+    Floats t = dot(e2, q) / det;
+    const unsigned inside = ~V::equal(det, zero) & V::not_greater(zero, u) &
+                            V::not_greater(u, one) & V::not_greater(zero, v) &
+                            V::not_greater(u + v, one);
+    hits.exact = 0;
+    hits.hit = inside == 0 ? 0 : settle_lanes<V>(ray, block, tmax, inside, t);
+    if (hits.hit == 0)
+        return;
+    V::store(hits.t, t);
+    V::store(hits.u, u);
+    V::store(hits.v, v);
+}
+
+/// Calls visit(lane, hit) for each triangle of a block that is hit with tmin < t <= tmax, until it
+/// returns true. Returns whether it did.
+template <class V, TriangleTest Test, class Visit>
+[[gnu::always_inline]] inline bool visit_triangles(const WideRay& ray, const WideTriangles& block,
+                                                   float tmax, Visit&& visit) {
+    LaneHits<V> hits;
+    if constexpr (Test == TriangleTest::watertight)
+        test_watertight<V>(ray, block, tmax, hits);
+    else
+        test_moeller_trumbore<V>(ray, block, tmax, hits);
+    for (unsigned rest = hits.hit; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+        if (visit(lane, PrimitiveHit{hits.t[lane], hits.u[lane], hits.v[lane]}))
+            return true;
+    }
+    for (unsigned rest = hits.exact; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+        const auto corner = [&](int i) { return block.corner(i, static_cast<int>(lane)); };
+        PrimitiveHit hit;
+        if (intersect_triangle<Test>(ray.prepared(), corner(0), corner(1), corner(2), tmax, hit) &&
+            visit(lane, hit))
+            return true;
+    }
+    return false;
+}
+
+} // namespace
+} // namespace plumb

@@ -1,0 +1,44 @@
+/// \file  A hit while it is looked for in the 8-wide tree: a number in place of the two ids.
+#pragma once
+
+#include "accel/sah/wide_bvh.h"
+
+namespace plumb {
+
+struct NumberedHit {
+    float t, u = 0, v = 0;
+    PrimitiveNumber number = invalid_id;
+
+    explicit NumberedHit(float tmax) : t(tmax) {}
+
+    /// Of two hits at the same t the lower number stays.
+    void keep_closer(const PrimitiveHit& hit, PrimitiveNumber candidate) {
+        if (hit.t < t || (hit.t == t && candidate < number)) {
+            t = hit.t;
+            u = hit.u;
+            v = hit.v;
+            number = candidate;
+        }
+    }
+
+    /// The hit with its ids; a miss where none was kept.
+    [[nodiscard]] Hit with_ids(const WideView& tree) const {
+        if (number == invalid_id)
+            return {};
+        // The last geometry whose first number is not greater: a few are looked through, of many
+        // the range is halved first.
+        std::uint32_t low = 0, geometry = tree.geometry_count - 1;
+        while (geometry - low > 8) {
+            const std::uint32_t middle = low + (geometry - low + 1) / 2;
+            if (tree.first_of[middle] <= number)
+                low = middle;
+            else
+                geometry = middle - 1;
+        }
+        while (tree.first_of[geometry] > number)
+            --geometry;
+        return {t, u, v, geometry, number - tree.first_of[geometry], invalid_id};
+    }
+};
+
+} // namespace plumb
