@@ -8,6 +8,7 @@
 #include "renderer/report.h"
 #include "renderer/scene/error.h"
 #include "renderer/scene/scene_tables.h"
+#include "renderer/validate_render.h"
 
 #include <fmt/format.h>
 
@@ -65,8 +66,9 @@ void note_fallback(const Options& options, std::string_view why) {
 bool chooses_cuda(const Options& options) {
     if (options.device == Device::cpu)
         return false;
-    std::string why = "cuda: needs --accel=sah";
-    if (options.accel == AccelKind::sah && cuda_available(&why))
+    std::string why =
+        options.validate ? "cuda: rays are validated on the CPU" : "cuda: needs --accel=sah";
+    if (options.accel == AccelKind::sah && !options.validate && cuda_available(&why))
         return true;
     if (options.device == Device::cuda)
         throw DeviceError(why);
@@ -103,9 +105,38 @@ Film render_with_progress(const Options& options, const Scene& scene, const Scen
             report.render = {};
         }
     }
+<<<<<<< HEAD
     const auto intersector = make_intersector(options.accel, tables.geometry(), options.build);
     report.build = intersector->stats();
     return render(job, needed, *intersector, how, report.render);
+=======
+    if (!options.validate)
+        return render(job, needed, *intersector, how, report.render);
+    const RenderValidation validation(options, scene, tables.view(), *intersector);
+    Film film = render(job, needed, validation.intersector(), how, report.render);
+    report.validation = validation.result();
+    return film;
+}
+
+/// Prints the table of a validation and writes its replay file. Returns the exit code.
+int close_validation(const Options& options, const ValidationResult& result) {
+    if (!options.quiet)
+        fmt::print("{}", table_of(result));
+    if (!result.replay.rays.empty()) {
+        atomic_write(result.replay_file, to_text(result.replay));
+        if (!options.quiet)
+            fmt::print("wrote {}\n", result.replay_file.string());
+    }
+    const std::uint64_t unexplained = result.report.unexplained_count();
+    if (unexplained == 0)
+        return 0;
+    fmt::print(stderr,
+               "error: validation: {} rays on which {} and {} disagree are unexplained "
+               "({})\n",
+               unexplained, name_of(result.first), name_of(result.second),
+               result.replay_file.string());
+    return 1;
+>>>>>>> f030d1b (renderer: validate a render's rays against a second structure)
 }
 
 int run(Options options) {
@@ -123,6 +154,8 @@ int run(Options options) {
     default_outputs(options);
     if (!options.stats_file.empty())
         check_writable(options.stats_file);
+    if (!options.replay_file.empty())
+        check_writable(options.replay_file);
     check_outputs(options.outputs, scene.film.crop.width, scene.film.crop.height);
     report.load_s = seconds_since(start);
 
@@ -142,7 +175,8 @@ int run(Options options) {
     }
     if (!options.stats_file.empty())
         atomic_write(options.stats_file, to_json(report, scene));
-    return caught_signal != 0 ? 128 + caught_signal : 0;
+    const int valid = report.validation ? close_validation(options, *report.validation) : 0;
+    return caught_signal != 0 ? 128 + caught_signal : valid;
 }
 
 /// The one place where exceptions become exit codes.

@@ -40,8 +40,8 @@ constexpr const char* footer = R"(Examples:
   renderer scenes/cornell-box.xml                        cornell-box.exr and cornell-box.png
   renderer --spp 256 -o box.exr scenes/cornell-box.xml   one scene-linear file
   renderer --accel embree -D res=512 scenes/cornell-box.xml
-Exit codes: 0 done, 2 usage, 3 scene, 4 mesh or texture, 5 output, 6 resources, 70 internal,
-128+n signal n.)";
+Exit codes: 0 done, 1 a validation failed, 2 usage, 3 scene, 4 mesh or texture, 5 output, 6 resources,
+70 internal, 128+n signal n.)";
 
 /// An option whose values are the names of an enumeration.
 template <class T, class Target>
@@ -147,6 +147,18 @@ void add_speed_flags(CLI::App& app, Options& options) {
                  "Use the general kernel whatever the scene needs (same bits, slower)");
 }
 
+void add_validation_flags(CLI::App& app, Options& options) {
+    add_choice(app, "--validate", options.validate, accel_names,
+               "Trace the render's rays with a second structure too, classify every disagreement; "
+               "exit 1 if one is unexplained");
+    app.add_option("--replay-file", options.replay_file,
+                   "Where --validate writes unexplained rays for tools/bench --replay "
+                   "[validate.replay]")
+        ->type_name("FILE");
+    app.add_flag("--replay-all", options.replay_all,
+                 "Write explained disagreements too, up to 10000");
+}
+
 void add_integrator_flags(CLI::App& app, Options& options) {
     add_choice(app, "--estimator", options.estimator, estimator_names,
                "Direct light by light sampling, by BSDF sampling, or by both with multiple "
@@ -230,6 +242,15 @@ void check_contradictions(const Options& options) {
                                    "moeller-trumbore needs --accel=naive or --accel=sah");
     if (options.device == Device::cuda && options.accel != AccelKind::sah)
         throw CLI::ValidationError("--device", "cuda needs --accel=sah");
+    if (options.validate == options.accel)
+        throw CLI::ValidationError("--validate", fmt::format("compares {} with itself: choose "
+                                                             "another --accel or --validate",
+                                                             name_of(options.accel)));
+    if (options.validate && options.device == Device::cuda)
+        throw CLI::ValidationError("--validate", "needs --device=cpu");
+    if (!options.validate && (options.replay_all || !options.replay_file.empty()))
+        throw CLI::ValidationError(options.replay_all ? "--replay-all" : "--replay-file",
+                                   "needs --validate");
     if (options.quiet && options.explain)
         throw CLI::ValidationError("--explain", "contradicts --quiet");
 }
@@ -257,6 +278,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     add_output_flags(app, options);
     add_integrator_flags(app, options);
     add_speed_flags(app, options);
+    add_validation_flags(app, options);
     app.allow_extras();
     try {
         app.parse(argc, argv);

@@ -34,7 +34,10 @@ struct Options {
     bool explain = false;
     bool quiet = false;
     std::filesystem::path stats_file;
-    std::string command_line; ///< as typed, for the image's metadata
+    std::optional<AccelKind> validate; ///< traces the render's rays as well
+    std::filesystem::path replay_file; ///< empty: validate.replay, if needed
+    bool replay_all = false;           ///< explained disagreements too
+    std::string command_line;          ///< as typed, for the image's metadata
 };
 
 /// Either options, or the exit code of a run that ends here (--help, --version, a usage error that

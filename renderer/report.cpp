@@ -143,6 +143,8 @@ std::string to_json(const RunReport& r, const Scene& scene) {
                              "\"skipped\": {}, \"depth\": {}, \"sah_cost\": {:.6g} }}",
                              b.bytes, b.node_count, b.leaf_count, b.primitive_count,
                              b.skipped_count, b.depth, b.sah_cost));
+    if (r.validation)
+        line("validation", to_json(*r.validation));
     line("peak_bytes", std::to_string(r.peak_bytes));
     line("image_hash", json_string(fmt::format("{:016x}", r.image_hash)), true);
     return out + "}\n";

@@ -4,6 +4,7 @@
 #include "accel/intersector.h"
 #include "renderer/integrate/render.h"
 #include "renderer/options.h"
+#include "renderer/validate_render.h"
 
 #include <chrono>
 #include <mutex>
@@ -19,6 +20,7 @@ struct RunReport {
     double load_s = 0, write_s = 0, total_s = 0;
     AccelStats build;
     RenderStats render;
+    std::optional<ValidationResult> validation;
     std::uint64_t image_hash = 0; ///< of the resolved float pixels (FNV-1a, 64 bit)
     std::size_t peak_bytes = 0;   ///< largest resident set of the process
 };
