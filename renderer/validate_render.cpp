@@ -139,8 +139,8 @@ std::string table_of(const ValidationResult& r) {
     }
     out += histogram_line("t apart, ulp", v.t_ulps);
     out += histogram_line("u, v apart, ulp of 1", v.uv_ulps);
-    out += fmt::format("  {:<24}t {} ulp, u and v {} ulp of 1\n", "worst explained", v.worst_t_ulps,
-                       v.worst_uv_ulps);
+    out += fmt::format("  {:<24}t {} ulp, {:.2f} of the bound; u and v {} ulp of 1\n",
+                       "worst explained", v.worst_t_ulps, v.worst_share, v.worst_uv_ulps);
     if (v.unchecked > 0)
         out += fmt::format("  {} disagreements were not searched for leaks: there are too many\n",
                            v.unchecked);
@@ -166,9 +166,11 @@ std::string to_json(const ValidationResult& r) {
     }
     out += fmt::format("    \"t_ulps\": {},\n    \"uv_ulps\": {},\n", histogram_json(v.t_ulps),
                        histogram_json(v.uv_ulps));
-    out += fmt::format("    \"worst_t_ulps\": {}, \"worst_uv_ulps\": {}, \"unchecked\": {},\n"
+    out += fmt::format("    \"worst_t_ulps\": {}, \"worst_uv_ulps\": {}, \"worst_share_of_bound\": "
+                       "{:.4f},\n    \"unchecked\": {},\n"
                        "    \"unexplained\": {}\n  }}",
-                       v.worst_t_ulps, v.worst_uv_ulps, v.unchecked, v.unexplained_count());
+                       v.worst_t_ulps, v.worst_uv_ulps, v.worst_share, v.unchecked,
+                       v.unexplained_count());
     return out;
 }
 

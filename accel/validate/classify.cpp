@@ -12,12 +12,15 @@ namespace {
 /// The referee's opinion of a hit that an intersector reports.
 enum class Claim : std::uint8_t { right, inexact, false_hit };
 
-Claim check(const GeometryView& view, const Ray& ray, const Hit& hit) {
-    const Judgement j = judge(view, hit.geometry, hit.primitive, ray);
+Claim check(const GeometryView& view, const Judgement& j, const Hit& hit) {
     if (j.answer == Answer::no)
         return Claim::false_hit;
     const bool uv = view.is_sphere(hit.geometry) || are_right_uv(j, hit.u, hit.v);
     return is_right_t(j, hit.t) && uv ? Claim::right : Claim::inexact;
+}
+
+Claim check(const GeometryView& view, const Ray& ray, const Hit& hit) {
+    return check(view, judge(view, hit.geometry, hit.primitive, ray), hit);
 }
 
 Culprit opponent_of(Culprit one) {
@@ -120,14 +123,16 @@ Verdict Classifier::same_primitive(const Ray& ray, const Hit& first, const Hit& 
     const auto near = [](float x, float y) { return std::fabs(x - y) <= 8 * 2 * unit_roundoff; };
     if (ulps_between(first.t, second.t) <= 8 && near(first.u, second.u) && near(first.v, second.v))
         return {Agreement::ulps, Culprit::none};
-    const Claim a = check(geometry_, ray, first), b = check(geometry_, ray, second);
+    const Judgement j = judge(geometry_, first.geometry, first.primitive, ray);
+    const Claim a = check(geometry_, j, first), b = check(geometry_, j, second);
     if (a != Claim::right || b != Claim::right)
         return wrong(a, b);
     // Two crossings of one sphere are both right only where the range decides.
-    const Judgement j = judge(geometry_, first.geometry, first.primitive, ray);
     const double apart = std::fabs(static_cast<double>(first.t) - static_cast<double>(second.t));
-    const bool crossings = j.near.in_range == Answer::either && apart > 2 * j.near.t_error;
-    return {crossings ? Agreement::range : Agreement::ulps, Culprit::none};
+    if (j.near.in_range == Answer::either && apart > 2 * j.near.t_error)
+        return {Agreement::range, Culprit::none};
+    const double share = std::max(share_of_bound(j, first.t), share_of_bound(j, second.t));
+    return {Agreement::ulps, Culprit::none, share};
 }
 
 /// `finder` reports `hit`, which is right; the loser has nothing nearer than `limit`. It is wrong

@@ -33,6 +33,9 @@ enum class Culprit : std::uint8_t { none, first, second, both };
 struct Verdict {
     Agreement agreement = Agreement::equal;
     Culprit culprit = Culprit::none;
+    /// The same primitive beyond 8 ulp: how far the t that is farther off is from the referee's, in
+    /// units of the bound.
+    double share_of_bound = 0;
 };
 
 /// The two answers to one ray. Any-hit queries fill the hits with what closest() says, which tells

@@ -166,11 +166,13 @@ Judgement judge_sphere(const Sphere& sphere, const Ray& ray) {
     return out;
 }
 
-bool is_at(const Crossing& c, float t) {
-    const auto reported = static_cast<double>(t);
-    const double bound = std::max(c.t_error, 16 * u * std::fabs(c.t)); // 8 ulp or more
-    return c.in_range != Answer::no && !(std::fabs(reported - c.t) > bound);
+/// How far a reported t is from a crossing in units of its bound, which is 8 ulp or more. NaN
+/// where the bound is not a number: an edge-on triangle.
+double share_at(const Crossing& c, float t) {
+    return std::fabs(static_cast<double>(t) - c.t) / std::max(c.t_error, 16 * u * std::fabs(c.t));
 }
+
+bool is_at(const Crossing& c, float t) { return c.in_range != Answer::no && !(share_at(c, t) > 1); }
 
 /// Whether p lies in the triangle, either winding, outline included.
 bool covers(const std::array<Place, 3>& triangle, Place p) {
@@ -198,6 +200,11 @@ bool is_right_t(const Judgement& judgement, float t) {
         return false;
     return is_at(judgement.near, t) ||
            (judgement.near.in_range != Answer::yes && is_at(judgement.far, t));
+}
+
+double share_of_bound(const Judgement& judgement, float t) {
+    const double near = share_at(judgement.near, t), far = share_at(judgement.far, t);
+    return std::isnan(near) ? 0 : std::min(near, far);
 }
 
 bool are_right_uv(const Judgement& judgement, float reported_u, float reported_v) {

@@ -60,6 +60,9 @@ struct Judgement {
 /// Whether reported barycentrics are right: within the bound or 8 ulp of 1. On spheres: 0.
 [[nodiscard]] bool are_right_uv(const Judgement& judgement, float u, float v);
 
+/// |t - the referee's| in units of the bound that is_right_t grants; 0 where the bound is infinite.
+[[nodiscard]] double share_of_bound(const Judgement& judgement, float t);
+
 /// Corners of two triangles at the same place, 0 to 3 for triangles without double corners; 0 where
 /// one is a sphere.
 [[nodiscard]] int shared_corners(const GeometryView& view, const Hit& a, const Hit& b);

@@ -15,8 +15,8 @@ using Counter = std::atomic<std::uint64_t>;
 
 void add_one(Counter& counter) { counter.fetch_add(1, std::memory_order_relaxed); }
 
-void raise(Counter& largest, std::uint64_t value) {
-    std::uint64_t before = largest.load(std::memory_order_relaxed);
+template <class Value> void raise(std::atomic<Value>& largest, Value value) {
+    Value before = largest.load(std::memory_order_relaxed);
     while (before < value && !largest.compare_exchange_weak(before, value)) {
     }
 }
@@ -57,9 +57,10 @@ struct alignas(64) ValidatingIntersector::Shard {
     std::array<std::array<Counter, 4>, agreement_count> counts{};
     std::array<Counter, 6> t_ulps{}, uv_ulps{};
     Counter worst_t_ulps{0}, worst_uv_ulps{0};
+    std::atomic<double> worst_share{0};
 };
 
-/// The disagreements with the smallest hashes.
+/// The disagreements with the smallest hashes; those in ulps only where room is left.
 struct ValidatingIntersector::Kept {
     std::mutex mutex;
     std::multimap<std::uint64_t, Disagreement> by_hash;
@@ -67,7 +68,9 @@ struct ValidatingIntersector::Kept {
     void add(Disagreement disagreement, std::size_t limit) {
         if (limit == 0)
             return;
-        const std::uint64_t hash = hash_of(disagreement.ray, disagreement.answers.any_hit);
+        const bool common = disagreement.verdict.agreement == Agreement::ulps;
+        const std::uint64_t hash = hash_of(disagreement.ray, disagreement.answers.any_hit) >> 1u |
+                                   (common ? std::uint64_t{1} << 63u : 0);
         const std::scoped_lock lock(mutex);
         if (by_hash.size() >= limit && hash >= by_hash.rbegin()->first)
             return;
@@ -181,6 +184,7 @@ void ValidatingIntersector::note(const Ray& ray, RayKind kind, const Verdict& ve
         if (verdict.agreement == Agreement::ulps) {
             raise(s.worst_t_ulps, t);
             raise(s.worst_uv_ulps, uv);
+            raise(s.worst_share, verdict.share_of_bound);
         }
     }
     if (!keep)
@@ -205,6 +209,7 @@ ValidationReport ValidatingIntersector::report() const {
         add(s.t_ulps, out.t_ulps);
         add(s.uv_ulps, out.uv_ulps);
         out.worst_t_ulps = std::max(out.worst_t_ulps, s.worst_t_ulps.load());
+        out.worst_share = std::max(out.worst_share, s.worst_share.load());
         out.worst_uv_ulps = std::max(out.worst_uv_ulps, s.worst_uv_ulps.load());
     }
     out.unchecked = classifier_.unchecked();

@@ -34,8 +34,9 @@ struct ValidationReport {
     /// ulps of 1 (2^-23).
     UlpHistogram t_ulps{}, uv_ulps{};
     std::uint64_t worst_t_ulps = 0, worst_uv_ulps = 0; ///< of the explained ones
-    std::uint64_t unchecked = 0;                       ///< see Classifier::unchecked
-    std::vector<Disagreement> unexplained, explained;  ///< as many as were kept
+    double worst_share = 0;      ///< largest Verdict::share_of_bound of the explained ones
+    std::uint64_t unchecked = 0; ///< see Classifier::unchecked
+    std::vector<Disagreement> unexplained, explained; ///< as many as were kept
 
     [[nodiscard]] std::uint64_t ray_count() const;
     [[nodiscard]] std::uint64_t count(Agreement agreement) const;
