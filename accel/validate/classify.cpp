@@ -155,9 +155,12 @@ Verdict Classifier::not_found(const Ray& ray, const Hit& hit, const Intersector&
         rest.tmin = next.t;
         next = finder.closest(rest);
     }
-    if (own.inside == Answer::either && may_scan() && is_closed_around(geometry_, hit, ray))
+    // A float test may lose this hit at an end of the range, whatever is around the ray.
+    if (own.inside == Answer::yes || own.near.in_range == Answer::either)
+        return {Agreement::range, Culprit::none};
+    if (may_scan() && is_closed_around(geometry_, hit, ray))
         return {Agreement::leak, loser};
-    return {own.inside == Answer::either ? Agreement::boundary : Agreement::range, Culprit::none};
+    return {Agreement::boundary, Culprit::none};
 }
 
 bool Classifier::may_scan() const {

@@ -252,7 +252,7 @@ bool is_closed_around(const GeometryView& view, const Hit& hit, const Ray& ray) 
             if (shared_corners(view, hit, other) == 0)
                 continue;
             const Judgement j = judge(view, g, i, ray);
-            if (j.inside == Answer::no ||
+            if (j.inside == Answer::no || j.near.in_range != Answer::yes ||
                 std::fabs(j.near.t - own.near.t) > j.near.t_error + own.near.t_error)
                 continue;
             cover(SeenTriangle(seen, view.vertices(g, i)));

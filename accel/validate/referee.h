@@ -68,8 +68,8 @@ struct Judgement {
 [[nodiscard]] int shared_corners(const GeometryView& view, const Hit& a, const Hit& b);
 
 /// Whether the surface goes on around the ray: the ray passes an edge or a corner of `hit` within
-/// rounding, and triangles that share a corner with it, at the same depth, cover a small circle
-/// around the ray. A watertight method hits one of them. Scans all triangles.
+/// rounding, and triangles that share a corner with it, at the same depth and certainly in range,
+/// cover a small circle around the ray. A watertight method hits one of them. Scans all triangles.
 [[nodiscard]] bool is_closed_around(const GeometryView& view, const Hit& hit, const Ray& ray);
 
 /// A primitive that the ray certainly hits; else one that it may hit; else an invalid hit. Judges

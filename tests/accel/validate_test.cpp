@@ -202,6 +202,12 @@ TEST(Validate, TheEndsOfTheRangeAreExplainedAtTheHitOnly) {
     EXPECT_EQ((Case{square(), ray, miss_always}).closest(), missed);
     ray.tmin = std::nextafter(2.0f, 0.0f);
     EXPECT_EQ((Case{square(), ray, miss_always}).closest(), explained_range);
+    // Whatever is around the ray: no leak at a closed edge, no outline at the outer one.
+    for (const float x : {0.25f, 1.0f}) {
+        Ray at_edge = down(x, 0.25f);
+        at_edge.tmax = 2;
+        EXPECT_EQ((Case{square(), at_edge, miss_always}).closest(), explained_range);
+    }
 }
 
 TestGeometry ball() {
@@ -231,6 +237,9 @@ TEST(Validate, TheFarSideOfASphereCountsWhereTheRangeHidesTheNear) {
     ray.tmin = std::nextafter(1.0f, 0.0f); // the near side at t = 1 is only just within
     EXPECT_EQ((Case{ball(), ray, far_side}).closest(), explained_range);
     EXPECT_EQ((Case{ball(), ray, miss_always}).closest(), missed); // one of the two is there
+    ray.tmin = 2;
+    ray.tmax = 3; // from inside, up to the far side
+    EXPECT_EQ((Case{ball(), ray, miss_always}).closest(), explained_range);
 }
 
 TEST(Referee, AgreesWithTheOracleWhereItIsSure) {
