@@ -32,15 +32,12 @@ RT_HD inline FilterSample sample_filter(const FilterTable& table, float u) {
         const float r = table.radius;
         return {u < 0.5f ? r * (std::sqrt(2 * u) - 1) : r * (1 - std::sqrt(2 * (1 - u))), 1};
     }
-    int low = 0, high = FilterTable::cells;
-    while (high - low > 1) {
-        const int middle = (low + high) / 2;
-        if (table.cdf[middle] <= u)
-            low = middle;
-        else
-            high = middle;
-    }
-    const float share = (u - table.cdf[low]) / (table.cdf[high] - table.cdf[low]);
+    static_assert(FilterTable::cells == 256);
+    int low = 0; // eight steps of a binary search, written out: no loop within loops over samples
+    const auto advance = [&](int step) { low += table.cdf[low + step] <= u ? step : 0; };
+    advance(128), advance(64), advance(32), advance(16);
+    advance(8), advance(4), advance(2), advance(1);
+    const float share = (u - table.cdf[low]) / (table.cdf[low + 1] - table.cdf[low]);
     const float cell = (static_cast<float>(low) + share) / static_cast<float>(FilterTable::cells);
     return {table.radius * (2 * cell - 1), table.sign[low]};
 }

@@ -57,22 +57,25 @@ RT_HD inline SphericalRectangle spherical_rectangle(const Light& light, Vec3 pos
     return {light.origin - position, light.edge1, light.edge2, light.normal};
 }
 
+/// How far off its plane a ray to a flat light must end, beside the rounding of the point.
+RT_HD inline float slack_of(const Light& light) {
+    return plane_slack(light.edge1, light.edge2, 2 * light.area);
+}
+
 /// Fills in a sample at origin + s edge1 + t edge2, chosen uniformly over `solid_angle`, or over
-/// the area if that is 0. Empty if the receiver is that very point.
-RT_HD inline LightSample flat_sample(const Light& light, Vec3 position, Vec2 st,
+/// the area if that is 0. `slack`: slack_of(light). Empty if the receiver is that very point.
+RT_HD inline LightSample flat_sample(const Light& light, float slack, Vec3 position, Vec2 st,
                                      float solid_angle) {
     const Vec3 e1 = light.edge1 * st.x, e2 = light.edge2 * st.y;
     const Vec3 error = rounding_bound(7) * (abs(light.origin) + abs(e1) + abs(e2));
-    const float slack = plane_slack(light.edge1, light.edge2, 2 * light.area);
     const Vec3 point = light.origin + e1 + e2, to_light = point - position;
-    if (!(dot(to_light, to_light) > 0))
-        return {};
     LightSample s;
     s.wi = normalize(to_light);
     s.target = point + light.normal * (dot(abs(light.normal), error) + slack);
     s.radiance = light.emission;
-    s.pdf =
-        solid_angle > 0 ? 1 / solid_angle : area_to_solid_angle(to_light, light.normal, light.area);
+    const float by_area = area_to_solid_angle(to_light, light.normal, light.area);
+    const float pdf = solid_angle > 0 ? 1 / solid_angle : by_area;
+    s.pdf = dot(to_light, to_light) > 0 ? pdf : 0; // or s.wi is no direction
     return s;
 }
 
@@ -83,21 +86,48 @@ RT_HD inline LightSample sample_triangle_light(const Light& light, Vec3 position
     if (method == LightSampling::solid_angle) {
         const SphericalTriangle triangle = spherical_triangle(light, position);
         if (triangle.solid_angle() >= min_solid_angle)
-            return flat_sample(light, position, triangle.sample(u), triangle.solid_angle());
+            return flat_sample(light, slack_of(light), position, triangle.sample(u),
+                               triangle.solid_angle());
     }
-    return flat_sample(light, position, sample_triangle(u), 0);
+    return flat_sample(light, slack_of(light), position, sample_triangle(u), 0);
+}
+
+/// sample_rectangle_light as far as float goes: not where `sound` is false. No branches.
+/// `slack`: slack_of(light).
+RT_HD inline LightSample sample_rectangle_in_float(const Light& light, float slack, Vec3 position,
+                                                   Vec2 u, LightSampling method, bool& sound) {
+    const bool front = in_front(light, position);
+    Vec2 st = u;
+    float solid_angle = 0;
+    sound = true;
+    if (method == LightSampling::solid_angle) {
+        const RectangleInFloat seen{light.origin - position, light.edge1, light.edge2,
+                                    light.normal};
+        const Vec2 chosen = seen.view.sample(u, seen.solid_angle);
+        const bool wide = seen.solid_angle >= min_solid_angle;
+        st = {wide ? chosen.x : u.x, wide ? chosen.y : u.y};
+        solid_angle = wide ? seen.solid_angle : 0;
+        sound = seen.sound | !front;
+    }
+    LightSample s = flat_sample(light, slack, position, st, solid_angle);
+    s.pdf *= front ? 1.0f : 0.0f; // no select: it would split the loops that this is part of
+    return s;
 }
 
 RT_HD inline LightSample sample_rectangle_light(const Light& light, Vec3 position, Vec2 u,
                                                 LightSampling method) {
     if (!in_front(light, position))
         return {};
-    if (method == LightSampling::solid_angle) {
-        const SphericalRectangle rectangle = spherical_rectangle(light, position);
-        if (rectangle.solid_angle() >= min_solid_angle)
-            return flat_sample(light, position, rectangle.sample(u), rectangle.solid_angle());
-    }
-    return flat_sample(light, position, u, 0);
+    bool sound = false;
+    const LightSample s =
+        sample_rectangle_in_float(light, slack_of(light), position, u, method, sound);
+    if (sound)
+        return s;
+    const SphericalRectangle rectangle = spherical_rectangle(light, position);
+    if (rectangle.solid_angle() >= min_solid_angle)
+        return flat_sample(light, slack_of(light), position, rectangle.sample(u),
+                           rectangle.solid_angle());
+    return flat_sample(light, slack_of(light), position, u, 0);
 }
 
 /// Squared sine of the half angle of the cone around a sphere; > 1 inside.

@@ -11,6 +11,7 @@
 #include "accel/math/vec.h"
 #include "renderer/scene/settings.h"
 
+#include <bit>
 #include <cstdint>
 
 namespace plumb {
@@ -96,21 +97,21 @@ constexpr SobolRows make_sobol_rows() {
     return rows;
 }
 
-/// The rows summed up (xor) for every value of each four bits of an index: a point takes as many
-/// look-ups as the index has hexadecimal digits.
+/// The rows summed up (xor) for every value of each byte of an index: a point takes four look-ups.
 struct SobolDigits {
-    Uint4 sum[8][16];
+    Uint4 sum[4][256];
 };
 
 constexpr SobolDigits make_sobol_digits() {
     const SobolRows rows = make_sobol_rows();
     SobolDigits digits{};
-    for (unsigned position = 0; position < 8; ++position)
-        for (unsigned value = 0; value < 16; ++value)
-            for (unsigned bit = 0; bit < 4; ++bit)
-                for (unsigned d = 0; d < 4; ++d)
-                    if (((value >> bit) & 1u) != 0)
-                        digits.sum[position][value].x[d] ^= rows.row[4 * position + bit].x[d];
+    for (unsigned position = 0; position < 4; ++position)
+        for (unsigned value = 1; value < 256; ++value)
+            for (unsigned d = 0; d < 4; ++d) {
+                const auto lowest = static_cast<unsigned>(std::countr_zero(value));
+                digits.sum[position][value].x[d] = digits.sum[position][value & (value - 1)].x[d] ^
+                                                   rows.row[8 * position + lowest].x[d];
+            }
     return digits;
 }
 
@@ -162,12 +163,13 @@ class Sampler {
             index = (index & 0xffff0000u) | detail::reverse_bits(shuffled << 16);
         }
         static constexpr detail::SobolDigits digits = detail::make_sobol_digits();
-        detail::Uint4 bits{};
-        for (std::uint32_t rest = index, i = 0; rest != 0; rest >>= 4, ++i)
-            for (int d = 0; d < 4; ++d)
-                bits.x[d] ^= digits.sum[i][rest & 15u].x[d];
-        for (int d = 0; d < 4; ++d)
-            bits.x[d] = detail::reverse_bits(detail::scramble_reversed(bits.x[d], key.x[d]));
+        detail::Uint4 bits;
+        for (int d = 0; d < 4; ++d) {
+            const std::uint32_t sum =
+                digits.sum[0][index & 255u].x[d] ^ digits.sum[1][(index >> 8) & 255u].x[d] ^
+                digits.sum[2][(index >> 16) & 255u].x[d] ^ digits.sum[3][index >> 24].x[d];
+            bits.x[d] = detail::reverse_bits(detail::scramble_reversed(sum, key.x[d]));
+        }
         return to_floats(bits);
     }
 

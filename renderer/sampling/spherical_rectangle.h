@@ -32,7 +32,7 @@ template <class Real> struct RectangleView {
         const Real abc = product_abc + ab * lc + bc * la + ac * lb;
         const Real acd = product_acd + ac * ld + cd * la + da * lc;
         constexpr Real lost = 0.01f;
-        sound = abc > lost * product_abc && acd > lost * product_acd;
+        sound = (abc > lost * product_abc) & (acd > lost * product_acd);
         // tan of half of each triangle's solid angle is volume / abc and volume / acd.
         return 2 *
                (atan2(to_float(volume), to_float(abc)) + atan2(to_float(volume), to_float(acd)));
@@ -61,9 +61,8 @@ template <class Real> struct RectangleView {
         const Real cu2 = sum > 0 ? (sine2 < sum ? sine2 / sum : one) : one;
         const Real rest = one - cu2;
         const bool positive = (numerator > 0) == (sin_au > 0);
-        Real x = positive ? x1 : x0;
-        if (rest > 0)
-            x = limit((positive ? -z0 : z0) * std::sqrt(cu2 / rest), x0, x1);
+        // No rest: x is infinite before the limit.
+        const Real x = limit((positive ? -z0 : z0) * std::sqrt(cu2 / rest), x0, x1);
         const Real d2 = x * x + z2;
         const Real h0 = y0 / std::sqrt(d2 + y0 * y0), h1 = y1 / std::sqrt(d2 + y1 * y1);
         const Real share = u.y;
@@ -74,7 +73,26 @@ template <class Real> struct RectangleView {
     }
 
     RT_HD static Real limit(Real v, Real low, Real high) {
-        return v < low ? low : v > high ? high : v;
+        const Real raised = v < low ? low : v;
+        return raised > high ? high : raised;
+    }
+};
+
+/// A rectangle seen from a point as float sees it. See SphericalRectangle.
+struct RectangleInFloat {
+    RectangleView<float> view;
+    float solid_angle; ///< steradians
+    bool sound;        ///< whether float suffices
+
+    RT_HD RectangleInFloat(Vec3 corner, Vec3 edge1, Vec3 edge2, Vec3 normal) {
+        const float length1 = length(edge1), length2 = length(edge2);
+        view.z0 = -std::fabs(dot(corner, normal));
+        view.x0 = dot(corner, edge1) / length1;
+        view.y0 = dot(corner, edge2) / length2;
+        view.x1 = view.x0 + length1;
+        view.y1 = view.y0 + length2;
+        solid_angle = view.solid_angle(sound);
+        sound &= -view.z0 > 0.01f * max(length1, length2);
     }
 };
 
@@ -85,16 +103,9 @@ class SphericalRectangle {
   public:
     /// `corner`: relative to the point. `edge1`, `edge2`: at right angles. `normal`: unit, either
     /// side. The point must not lie in the plane of the rectangle.
-    RT_HD SphericalRectangle(Vec3 corner, Vec3 edge1, Vec3 edge2, Vec3 normal) {
-        const float length1 = length(edge1), length2 = length(edge2);
-        near_.z0 = -std::fabs(dot(corner, normal));
-        near_.x0 = dot(corner, edge1) / length1;
-        near_.y0 = dot(corner, edge2) / length2;
-        near_.x1 = near_.x0 + length1;
-        near_.y1 = near_.y0 + length2;
-        solid_angle_ = near_.solid_angle(in_float_);
-        in_float_ = in_float_ && -near_.z0 > 0.01f * max(length1, length2);
-        if (!in_float_) {
+    RT_HD SphericalRectangle(Vec3 corner, Vec3 edge1, Vec3 edge2, Vec3 normal)
+        : near_(corner, edge1, edge2, normal), solid_angle_(near_.solid_angle) {
+        if (!near_.sound) {
             exact_ = exact_view(corner, edge1, edge2);
             bool sound = true;
             solid_angle_ = exact_.solid_angle(sound);
@@ -107,7 +118,7 @@ class SphericalRectangle {
     /// Point (s, t) in [0,1]^2 of the rectangle: corner + s edge1 + t edge2. Its direction is
     /// uniform over the solid angle for u uniform in [0,1)^2.
     [[nodiscard]] RT_HD Vec2 sample(Vec2 u) const {
-        return in_float_ ? near_.sample(u, solid_angle_) : exact_.sample(u, solid_angle_);
+        return near_.sound ? near_.view.sample(u, solid_angle_) : exact_.sample(u, solid_angle_);
     }
 
   private:
@@ -123,10 +134,9 @@ class SphericalRectangle {
         return view;
     }
 
-    detail::RectangleView<float> near_;
+    detail::RectangleInFloat near_;
     detail::RectangleView<double> exact_; ///< where float will not do
-    bool in_float_ = true;
-    float solid_angle_ = 0;
+    float solid_angle_;
 };
 
 } // namespace plumb

@@ -23,11 +23,10 @@ namespace detail {
 
 /// The next float away from zero in the direction of `sign` (> 0: up).
 RT_HD inline float next_float(float x, bool up) {
-    if (x == 0)
-        return up ? 1e-45f : -1e-45f;
-    std::uint32_t bits = std::bit_cast<std::uint32_t>(x);
-    bits = ((x > 0) == up) ? bits + 1 : bits - 1;
-    return std::bit_cast<float>(bits);
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(x);
+    const float next = std::bit_cast<float>(((x > 0) == up) ? bits + 1 : bits - 1);
+    const float least = up ? 1e-45f : -1e-45f;
+    return x == 0 ? least : next;
 }
 
 /// Unit normal of a sliver whose cross product is too small: from scaled edges, or the direction
@@ -50,6 +49,34 @@ RT_HD inline Interaction interact_sphere(const SceneView& scene, const Hit& hit,
     return it;
 }
 
+/// A flat triangle's point with barycentrics u, v. `sliver`: the normal is not one, take
+/// sliver_normal.
+RT_HD inline Interaction interact_triangle(const TriangleVertices& t, float u, float v,
+                                           bool& sliver) {
+    const Vec3 a = (1 - u - v) * t.a, b = u * t.b, c = v * t.c;
+    Interaction it;
+    it.position = a + b + c;
+    const Vec3 edge1 = t.b - t.a, edge2 = t.c - t.a;
+    const Vec3 n = cross(edge1, edge2);
+    const float length2 = dot(n, n), cross_length = std::sqrt(length2);
+    const float slack = plane_slack(edge1, edge2, cross_length);
+    it.error = rounding_bound(7) * (abs(a) + abs(b) + abs(c)) + Vec3{slack, slack, slack};
+    it.geometric = n / cross_length;
+    it.shading = it.geometric;
+    sliver = !(length2 > 1e-30f && length2 < infinity);
+    return it;
+}
+
+/// The same for any triangle, hit by a ray of this direction.
+RT_HD inline Interaction interact_triangle(const TriangleVertices& t, float u, float v,
+                                           Vec3 ray_direction) {
+    bool sliver = false;
+    Interaction it = interact_triangle(t, u, v, sliver);
+    if (sliver)
+        it.geometric = it.shading = sliver_normal(t.b - t.a, t.c - t.a, ray_direction);
+    return it;
+}
+
 } // namespace detail
 
 /// Needs a valid hit of this ray. `Smooth`: interpolate shading normals where the mesh has them.
@@ -59,18 +86,7 @@ RT_HD Interaction interact(const SceneView& scene, const Hit& hit, const Ray& ra
         if (scene.geometry.is_sphere(hit.geometry))
             return detail::interact_sphere(scene, hit, ray);
     const TriangleVertices t = scene.geometry.vertices(hit.geometry, hit.primitive);
-    const Vec3 a = (1 - hit.u - hit.v) * t.a, b = hit.u * t.b, c = hit.v * t.c;
-    Interaction it;
-    it.position = a + b + c;
-    const Vec3 edge1 = t.b - t.a, edge2 = t.c - t.a;
-    const Vec3 n = cross(edge1, edge2);
-    const float length2 = dot(n, n), cross_length = std::sqrt(length2);
-    const float slack = plane_slack(edge1, edge2, cross_length);
-    it.error = rounding_bound(7) * (abs(a) + abs(b) + abs(c)) + Vec3{slack, slack, slack};
-    it.geometric = length2 > 1e-30f && length2 < infinity
-                       ? n / cross_length
-                       : detail::sliver_normal(edge1, edge2, ray.direction);
-    it.shading = it.geometric;
+    Interaction it = detail::interact_triangle(t, hit.u, hit.v, ray.direction);
     if constexpr (Smooth) {
         const std::span<const Vec3> normals = scene.normals[hit.geometry];
         if (!normals.empty()) {
@@ -91,11 +107,11 @@ RT_HD inline Vec3 offset_origin(Vec3 position, Vec3 error, Vec3 normal, Vec3 dir
     Vec3 offset = normal * distance;
     if (dot(direction, normal) < 0)
         offset = -offset;
-    Vec3 origin = position + offset;
-    for (int axis = 0; axis < 3; ++axis)
-        if (offset[axis] != 0)
-            origin[axis] = detail::next_float(origin[axis], offset[axis] > 0);
-    return origin;
+    const auto moved = [](float x, float by) {
+        const float sum = x + by;
+        return by != 0 ? detail::next_float(sum, by > 0) : sum;
+    };
+    return {moved(position.x, offset.x), moved(position.y, offset.y), moved(position.z, offset.z)};
 }
 
 } // namespace plumb
