@@ -25,6 +25,7 @@ struct RenderOptions {
     int threads = 0;                 ///< 0: all cores
     bool variance = false;           ///< keep each pixel's sample variance
     bool force_full_profile = false; ///< run the general kernel whatever the scene needs
+    bool ray_by_ray = false;         ///< no streams: what a GPU thread does, the same bits
     Progress progress;
     /// Set to end early: pixels keep the samples they have, those without any are black.
     const std::atomic<bool>* cancel = nullptr;

@@ -20,6 +20,7 @@ struct RenderSetup {
     int threads = 1;
     bool variance = false;
     bool full_profile = false;
+    bool ray_by_ray = false;
     std::vector<std::pair<std::string, std::string>> parameters; ///< -D name=value
     std::function<void(Scene&)> adjust; ///< puts options over the scene's own settings
 };
