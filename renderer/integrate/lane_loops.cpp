@@ -70,14 +70,23 @@ template <bool Usual>
                                    std::uint32_t group, std::size_t n, SampleLanes& numbers) {
     const std::uint64_t seed = sampler.seed;
     const std::size_t end = whole_vectors(n);
-    with_constant<SamplerKind::sobol, SamplerKind::independent>(sampler.kind, [&](auto kind) {
+    const auto loop = [&](auto kind, auto index_bits) {
         for (std::size_t i = 0; i < end; ++i) {
-            const Sample4 s = Sampler(kind(), seed, l.pixel[i], l.sample[i]).group(group);
+            const std::uint32_t index = l.sample[i] & index_bits(); // known zeros save look-ups
+            const Sample4 s = Sampler(kind(), seed, l.pixel[i], index).group(group);
             numbers.x[0][i] = s.x[0];
             numbers.x[1][i] = s.x[1];
             numbers.x[2][i] = s.x[2];
             numbers.x[3][i] = s.x[3];
         }
+    };
+    using SomeBits = std::integral_constant<std::uint32_t, 0xffffu>;
+    using AllBits = std::integral_constant<std::uint32_t, 0xffffffffu>;
+    with_constant<SamplerKind::sobol, SamplerKind::independent>(sampler.kind, [&](auto kind) {
+        if (sampler.spp <= SomeBits::value)
+            loop(kind, SomeBits{});
+        else
+            loop(kind, AllBits{});
     });
 }
 
@@ -88,6 +97,7 @@ template <bool Usual>
         const CameraSample camera = camera_sample(job, l.pixel_x[i], l.pixel_y[i],
                                                   {l.direction_u.x[0][i], l.direction_u.x[1][i]});
         l.next_direction.set(i, camera.ray.direction);
+        l.wo.set(i, PathSteps<box_profile>::start(camera.ray).wo);
         l.weight[i] = camera.weight;
     }
 }

@@ -14,7 +14,7 @@ namespace plumb {
 void draw_numbers(const PathLanes& lanes, const SamplerSettings& sampler, std::uint32_t group,
                   std::size_t n, SampleLanes& numbers);
 
-/// Directions (next_direction) and weights of camera rays, from direction_u.
+/// Directions (next_direction, wo) and weights of camera rays, from direction_u.
 void aim_camera(PathLanes& lanes, const RenderJob& job, std::size_t n);
 
 /// Vertices where `corner`, u and v say, seen from wo. Slivers: `exception` is set, and the vertex

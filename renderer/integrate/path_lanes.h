@@ -11,8 +11,10 @@ namespace plumb {
 /// Paths that are traced together. More make longer streams of rays; fewer stay in the cache.
 inline constexpr std::size_t max_lanes = 256;
 
+/// A number of each path. A line of the cache longer than it has to be: else the same lane of four
+/// arrays in a row, and so of dozens, would compete for one set of the first-level cache.
 template <class T> struct alignas(64) Lanes {
-    T lane[max_lanes];
+    T lane[max_lanes + 64 / sizeof(T)];
 
     T& operator[](std::size_t i) { return lane[i]; }
     const T& operator[](std::size_t i) const { return lane[i]; }

@@ -115,10 +115,11 @@ template <Features F> class PathStream {
             const std::size_t i = l.source[r]; // n <= r <= i: nothing is overwritten too early
             const Ray& ray = l.rays[r];
             const Hit& hit = l.hits[r];
-            Path path =
-                depth == 1
-                    ? PathSteps<F>::start(ray)
-                    : Path{ray, -ray.direction, l.throughput[i], l.pdf[i], {l.position[i], {}}};
+            Path path{ray,
+                      depth == 1 ? l.wo[i] : -ray.direction,
+                      l.throughput[i],
+                      l.pdf[i],
+                      {l.position[i], {}}};
             if constexpr (F.environment)
                 path.from.normal = l.geometric[i];
             if (!hit.valid()) {
