@@ -16,7 +16,8 @@
 namespace plumb::embree {
 
 inline constexpr unsigned packet_width = 16;
-using PacketMask = std::array<int, packet_width>; ///< -1: the lane takes part, 0: it does not
+/// -1 for each lane that takes part, else 0. Embree loads it aligned.
+struct alignas(64) PacketMask : std::array<int, packet_width> {};
 
 /// What Embree wants to know of rays beside the rays: made once for any number of queries.
 class Query {

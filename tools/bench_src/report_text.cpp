@@ -62,9 +62,14 @@ std::string cell_text(const Cell& cell) {
 }
 
 std::string ratio_columns(const std::optional<Ratio>& ratio) {
-    return ratio ? fmt::format("{:>7.2f}{:>7.2f} {:<12.12}", ratio->geometric_mean, ratio->least,
+    return ratio ? fmt::format("{:>6.2f}{:>6.2f} {:<10.10}", ratio->geometric_mean, ratio->least,
                                ratio->least_mesh)
-                 : fmt::format("{:>7}{:>7} {:<12}", "-", "-", "");
+                 : fmt::format("{:>6}{:>6} {:<10}", "-", "-", "");
+}
+
+std::string without_trailing_spaces(std::string line) {
+    line.erase(line.find_last_not_of(' ') + 1);
+    return line;
 }
 
 } // namespace
@@ -99,12 +104,16 @@ std::string summary_text(const std::vector<SummaryRow>& summary) {
         return "";
     std::string out = "\nRatios to the fastest Embree of the same run: geometric mean over the "
                       "meshes, and the least with its mesh\n";
-    out += fmt::format("  {:<25}{:<8}{:<27}{:<27}{:<27}\n", "", "", "  default single rays",
-                       "  robust single rays", "  packets of 16");
+    out += fmt::format("  {:<38}   {:<20}   {:<20}   packets of 16\n", "", "default single rays",
+                       "robust single rays");
+    out += fmt::format("  {:<38}{:>6}{:>6} {:<10}{:>6}{:>6} {:<10}{:>6}{:>6}\n", "", "mean",
+                       "least", "of", "mean", "least", "of", "mean", "least");
     for (const SummaryRow& row : summary)
-        out += fmt::format("  {:<25}{:<8}{}{}{}\n", row.config, name_of(row.kind),
-                           ratio_columns(row.to_default), ratio_columns(row.to_robust),
-                           ratio_columns(row.to_packet));
+        out += without_trailing_spaces(fmt::format("  {:<30}{:<8}{}{}{}", row.config,
+                                                   name_of(row.kind), ratio_columns(row.to_default),
+                                                   ratio_columns(row.to_robust),
+                                                   ratio_columns(row.to_packet))) +
+               "\n";
     return out;
 }
 
