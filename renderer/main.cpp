@@ -105,11 +105,8 @@ Film render_with_progress(const Options& options, const Scene& scene, const Scen
             report.render = {};
         }
     }
-<<<<<<< HEAD
     const auto intersector = make_intersector(options.accel, tables.geometry(), options.build);
     report.build = intersector->stats();
-    return render(job, needed, *intersector, how, report.render);
-=======
     if (!options.validate)
         return render(job, needed, *intersector, how, report.render);
     const RenderValidation validation(options, scene, tables.view(), *intersector);
@@ -136,7 +133,6 @@ int close_validation(const Options& options, const ValidationResult& result) {
                unexplained, name_of(result.first), name_of(result.second),
                result.replay_file.string());
     return 1;
->>>>>>> f030d1b (renderer: validate a render's rays against a second structure)
 }
 
 int run(Options options) {
