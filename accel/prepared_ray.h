@@ -42,6 +42,11 @@ struct PrimitiveHit {
     float t, u, v;
 };
 
+/// Whether a hit at t counts: tmin < t <= tmax, and finite.
+RT_HD inline bool is_between(float tmin, float t, float tmax) {
+    return t > tmin && t <= tmax && t < infinity;
+}
+
 /// Last step of every primitive test: t is moved into the interval over which the ray crosses the
 /// primitive's own box, and the hit counts if that interval is not empty and tmin < t <= tmax.
 ///
@@ -53,7 +58,7 @@ RT_HD inline bool settle(const PreparedRay& ray, const Bounds& own, float tmax, 
     if (!(crossing.near <= crossing.far) || std::isnan(hit.t))
         return false;
     hit.t = clamp(hit.t, crossing.near, crossing.far);
-    return hit.t > ray.tmin && hit.t <= tmax && hit.t < infinity;
+    return is_between(ray.tmin, hit.t, tmax);
 }
 
 } // namespace plumb

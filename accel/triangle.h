@@ -74,8 +74,9 @@ RT_HD inline bool watertight_candidate(const PreparedRay& ray, const Vec3& v0, c
     const float det = u + v + w;
     if (det == 0 || !(std::fabs(det) < infinity))
         return false;
-    const float weight_b = v / det, weight_c = w / det;
-    const float z = u / det * a.z + weight_b * b.z + weight_c * c.z;
+    const float scale = 1 / det; // infinite for triangles smaller than 1e-19, which are missed
+    const float weight_b = v * scale, weight_c = w * scale;
+    const float z = u * scale * a.z + weight_b * b.z + weight_c * c.z;
     hit = {z * ray.shear_z, weight_b, weight_c};
     return true;
 }
@@ -116,7 +117,10 @@ RT_HD inline bool intersect_triangle(const PreparedRay& ray, const Vec3& v0, con
         if (!detail::moeller_trumbore_candidate(ray, v0, v1, v2, hit))
             return false;
     }
-    hit.t = clamp_between(slab_interval(ray.slab, vertex_bounds(v0, v1, v2)), hit.t);
+    const Interval tight = slab_interval(ray.slab, vertex_bounds(v0, v1, v2));
+    hit.t = clamp_between(tight, hit.t);
+    if (tight.near <= tight.far) // lies within the interval of triangle_bounds, which is larger
+        return is_between(ray.tmin, hit.t, tmax);
     return settle(ray, triangle_bounds(v0, v1, v2), tmax, hit);
 }
 

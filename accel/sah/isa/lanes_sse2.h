@@ -49,18 +49,25 @@ struct Lanes {
     static Floats exclusive_or(Floats a, Floats b) {
         return {_mm_xor_ps(a.low, b.low), _mm_xor_ps(a.high, b.high)};
     }
-    /// One bit a lane: its sign, or the outcome of a comparison (false where either is NaN).
-    static unsigned signs(Floats x) {
+    // Masks: all bits of a lane set or none; comparisons are false where either is NaN.
+    static Floats equal(Floats a, Floats b) {
+        return {_mm_cmpeq_ps(a.low, b.low), _mm_cmpeq_ps(a.high, b.high)};
+    }
+    static Floats less(Floats a, Floats b) {
+        return {_mm_cmplt_ps(a.low, b.low), _mm_cmplt_ps(a.high, b.high)};
+    }
+    static Floats not_greater(Floats a, Floats b) {
+        return {_mm_cmple_ps(a.low, b.low), _mm_cmple_ps(a.high, b.high)};
+    }
+    static Floats both(Floats a, Floats b) {
+        return {_mm_and_ps(a.low, b.low), _mm_and_ps(a.high, b.high)};
+    }
+    static Floats either(Floats a, Floats b) {
+        return {_mm_or_ps(a.low, b.low), _mm_or_ps(a.high, b.high)};
+    }
+    /// One bit a lane: its sign, or that it is in a mask.
+    static unsigned bits(Floats x) {
         return static_cast<unsigned>(_mm_movemask_ps(x.low) | _mm_movemask_ps(x.high) << 4);
-    }
-    static unsigned equal(Floats a, Floats b) {
-        return signs({_mm_cmpeq_ps(a.low, b.low), _mm_cmpeq_ps(a.high, b.high)});
-    }
-    static unsigned less(Floats a, Floats b) {
-        return signs({_mm_cmplt_ps(a.low, b.low), _mm_cmplt_ps(a.high, b.high)});
-    }
-    static unsigned not_greater(Floats a, Floats b) {
-        return signs({_mm_cmple_ps(a.low, b.low), _mm_cmple_ps(a.high, b.high)});
     }
     /// Writes the numbers whose bit is set, in order.
     static void store_packed(std::uint32_t* to, const std::uint32_t* from, unsigned mask) {

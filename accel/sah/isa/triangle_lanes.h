@@ -21,55 +21,42 @@ template <class V> struct LaneHits {
     unsigned exact; ///< lanes that intersect_triangle has to decide
 };
 
-/// settle() and the clamp before it, for the lanes in `candidates`: t is moved into the box of the
-/// lane's vertices, then into triangle_bounds. Leaves the lanes that are hits. Coordinates are
-/// mirrored where the ray runs down an axis, which negates exactly, so that the near plane is
-/// always the lower one.
+/// What follows a candidate t in intersect_triangle: t is moved into the interval of the box of the
+/// vertices. Sorts the candidates into hits, others and those that the scalar test has to decide:
+/// where the ray passes beside that box by a rounding error, and all of a tilted ray. Others' 1 /
+/// direction is finite, so that no NaN comes up and the lesser plane distance is the near one.
 template <class V>
-[[gnu::always_inline]] inline unsigned settle_lanes(const WideRay& ray, const WideTriangles& block,
-                                                    float tmax, unsigned candidates,
-                                                    typename V::Floats& t) {
+[[gnu::always_inline]] inline void settle_lanes(const WideRay& ray, const WideTriangles& block,
+                                                float tmax, unsigned candidates,
+                                                typename V::Floats& t, LaneHits<V>& hits) {
     using Floats = typename V::Floats;
-    Floats lower[3], upper[3], origin[3], inverse[3];
-    for (int axis = 0; axis < 3; ++axis) {
-        const Floats flip = V::broadcast(ray.sign[axis]);
-        const auto corner = [&](int i) {
-            return V::exclusive_or(V::load(block.vertex[i][axis]), flip);
-        };
-        const Floats a = corner(0), b = corner(1), c = corner(2);
-        lower[axis] = V::min(a, V::min(b, c));
-        upper[axis] = V::max(a, V::max(b, c));
-        origin[axis] = V::exclusive_or(V::broadcast(ray.origin[axis]), flip);
-        inverse[axis] = V::exclusive_or(V::broadcast(ray.inverse[axis]), flip);
+    if (ray.tilted) [[unlikely]] {
+        hits.exact |= candidates;
+        return;
     }
     Floats near, far;
-    const auto measure = [&] {
-        near = V::max((lower[0] - origin[0]) * inverse[0], V::broadcast(-infinity));
-        far = V::min((upper[0] - origin[0]) * inverse[0], V::broadcast(infinity));
-        for (int axis = 1; axis < 3; ++axis) {
-            near = V::max((lower[axis] - origin[axis]) * inverse[axis], near);
-            far = V::min((upper[axis] - origin[axis]) * inverse[axis], far);
-        }
-        far = V::max(far * V::broadcast(slab_padding), far); // unpadded where negative
-    };
-    measure();
-    t = V::min(V::max(near, far), V::max(V::min(near, far), t));
-    const Floats margin =
-        V::broadcast(8 * unit_roundoff) *
-        V::max(upper[0] - lower[0], V::max(upper[1] - lower[1], upper[2] - lower[2]));
-    const Floats ulp = V::broadcast(2 * unit_roundoff);
     for (int axis = 0; axis < 3; ++axis) {
-        lower[axis] = lower[axis] - (margin + ulp * V::absolute(lower[axis]));
-        upper[axis] = upper[axis] + (margin + ulp * V::absolute(upper[axis]));
+        const Floats a = V::load(block.vertex[0][axis]), b = V::load(block.vertex[1][axis]);
+        const Floats c = V::load(block.vertex[2][axis]);
+        const Floats origin = V::broadcast(ray.origin[axis]);
+        const Floats inverse = V::broadcast(ray.inverse[axis]);
+        const Floats p = (V::min(a, V::min(b, c)) - origin) * inverse;
+        const Floats q = (V::max(a, V::max(b, c)) - origin) * inverse;
+        near = axis == 0 ? V::min(p, q) : V::max(V::min(p, q), near);
+        far = axis == 0 ? V::max(p, q) : V::min(V::max(p, q), far);
     }
-    measure();
-    const unsigned number = V::equal(t, t);
-    t = V::min(V::max(t, near), far);
-    return candidates & V::not_greater(near, far) & number & V::less(V::broadcast(ray.tmin), t) &
-           V::not_greater(t, V::broadcast(tmax)) & V::less(t, V::broadcast(infinity));
+    far = V::max(far * V::broadcast(slab_padding), far); // unpadded where negative
+    t = V::min(far, V::max(near, t));
+    const Floats crossed = V::not_greater(near, far);
+    const Floats in_range =
+        V::both(V::less(V::broadcast(ray.tmin), t),
+                V::not_greater(t, V::broadcast(min(tmax, std::numeric_limits<float>::max()))));
+    hits.hit = candidates & V::bits(V::both(crossed, in_range));
+    hits.exact |= candidates & ~V::bits(crossed);
 }
 
-/// Vertices relative to the origin and sheared; edge functions.
+/// Vertices relative to the origin and sheared; edge functions. Coordinates of ordinary rays and
+/// trees are too small to overflow.
 template <class V>
 [[gnu::always_inline]] inline void test_watertight(const WideRay& ray, const WideTriangles& block,
                                                    float tmax, LaneHits<V>& hits) {
@@ -87,19 +74,20 @@ template <class V>
     const Floats u = x[2] * y[1] - y[2] * x[1];
     const Floats v = x[0] * y[2] - y[0] * x[2];
     const Floats w = x[1] * y[0] - y[1] * x[0];
-    const Floats none = V::broadcast(0);
-    hits.exact = V::equal(u, none) | V::equal(v, none) | V::equal(w, none);
-    const unsigned mixed = V::signs(V::exclusive_or(u, v)) | V::signs(V::exclusive_or(v, w));
-    unsigned inside = ~(mixed | hits.exact) & 0xffu;
+    const Floats zero = V::broadcast(0);
+    const Floats on_edge =
+        V::either(V::either(V::equal(u, zero), V::equal(v, zero)), V::equal(w, zero));
+    const Floats mixed = V::either(V::exclusive_or(u, v), V::exclusive_or(v, w));
     hits.hit = 0;
+    hits.exact = V::bits(on_edge);
+    const unsigned inside = ~(V::bits(mixed) | hits.exact) & 0xffu;
     if (inside == 0)
         return;
-    const Floats det = u + v + w;
-    const Floats weight_b = v / det, weight_c = w / det;
+    const Floats scale = V::broadcast(1) / (u + v + w);
+    const Floats weight_b = v * scale, weight_c = w * scale;
     Floats t =
-        (u / det * z[0] + weight_b * z[1] + weight_c * z[2]) * V::broadcast(ray.inverse[ray.kz]);
-    inside &= ~V::equal(det, none) & V::less(V::absolute(det), V::broadcast(infinity));
-    hits.hit = settle_lanes<V>(ray, block, tmax, inside, t);
+        (u * scale * z[0] + weight_b * z[1] + weight_c * z[2]) * V::broadcast(ray.inverse[ray.kz]);
+    settle_lanes<V>(ray, block, tmax, inside, t, hits);
     if (hits.hit == 0)
         return;
     V::store(hits.t, t);
@@ -142,11 +130,14 @@ template <class V>
     const Lanes3<V> q = cross(s, e1);
     const Floats v = dot(direction, q) / det;
     Floats t = dot(e2, q) / det;
-    const unsigned inside = ~V::equal(det, zero) & V::not_greater(zero, u) &
-                            V::not_greater(u, one) & V::not_greater(zero, v) &
-                            V::not_greater(u + v, one);
+    const unsigned inside =
+        V::bits(V::both(V::both(V::not_greater(zero, u), V::not_greater(u, one)),
+                        V::both(V::not_greater(zero, v), V::not_greater(u + v, one)))) &
+        ~V::bits(V::equal(det, zero));
+    hits.hit = 0;
     hits.exact = 0;
-    hits.hit = inside == 0 ? 0 : settle_lanes<V>(ray, block, tmax, inside, t);
+    if (inside != 0)
+        settle_lanes<V>(ray, block, tmax, inside, t, hits);
     if (hits.hit == 0)
         return;
     V::store(hits.t, t);

@@ -36,18 +36,17 @@ struct WideRay {
     alignas(16) float near_inverse[4], near_addend[4], far_inverse[4], far_addend[4];
     alignas(16) float origin[4], inverse[4]; ///< as in SlabRay
     alignas(16) float direction[4];
-    alignas(16) float sign[4];  ///< -0 where the direction's sign bit is set, else 0
     alignas(16) float shear[4]; ///< direction / direction[kz]
     float tmin, tmax;
     int kx, ky, kz;    ///< as in PreparedRay
     unsigned negative; ///< sign bits of the direction's components
+    bool tilted;       ///< a component is next to nothing or zero: `inverse` may be infinite
 
     WideRay(const Ray& ray, float reach) : tmin(ray.tmin + 0.0f), tmax(ray.tmax) { // no -0
         const __m128 o = _mm_loadu_ps(&ray.origin.x), d = _mm_loadu_ps(&ray.direction.x);
         const __m128 length = absolute4(d);
         _mm_store_ps(origin, o);
         _mm_store_ps(direction, d);
-        _mm_store_ps(sign, _mm_and_ps(d, _mm_set1_ps(-0.0f)));
         negative = static_cast<unsigned>(_mm_movemask_ps(d)) & 7u;
         // kz without branches: which of x > y, x > z, y > z hold, and a table of two bits each.
         const int greater =
@@ -62,7 +61,8 @@ struct WideRay {
         _mm_store_ps(inverse, inv);
         set_coefficients(o, inv, _mm_set1_ps(1e-36f)); // products below the normal numbers
         const __m128 smallest = _mm_mul_ps(absolute4(largest), _mm_set1_ps(0x1p-30f));
-        if ((_mm_movemask_ps(_mm_cmpge_ps(length, smallest)) & 7) != 7) [[unlikely]]
+        tilted = (_mm_movemask_ps(_mm_cmpge_ps(length, smallest)) & 7) != 7;
+        if (tilted) [[unlikely]]
             tilt(reach);
     }
 

@@ -42,7 +42,7 @@ template <class V> class NodeTest {
         const Floats far = V::min(
             V::min(at(far_, far_inverse_, far_addend_, 0), at(far_, far_inverse_, far_addend_, 1)),
             V::min(at(far_, far_inverse_, far_addend_, 2), tmax));
-        return V::not_greater(near, far);
+        return V::bits(V::not_greater(near, far));
     }
 
   private:

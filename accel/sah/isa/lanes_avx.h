@@ -1,4 +1,4 @@
-/// \file  Eight floats in one register: AVX2 and FMA3. For avx2.cpp only.
+/// \file  Eight floats in one register: AVX2 and FMA3. For avx2.cpp and avx512.cpp.
 #pragma once
 
 #include <array>
@@ -31,13 +31,14 @@ struct Lanes {
     static Floats max(Floats a, Floats b) { return _mm256_max_ps(a, b); }
     static Floats absolute(Floats x) { return _mm256_andnot_ps(broadcast(-0.0f), x); }
     static Floats exclusive_or(Floats a, Floats b) { return _mm256_xor_ps(a, b); }
-    /// One bit a lane: its sign, or the outcome of a comparison (false where either is NaN).
-    static unsigned signs(Floats x) { return static_cast<unsigned>(_mm256_movemask_ps(x)); }
-    static unsigned equal(Floats a, Floats b) { return signs(_mm256_cmp_ps(a, b, _CMP_EQ_OQ)); }
-    static unsigned less(Floats a, Floats b) { return signs(_mm256_cmp_ps(a, b, _CMP_LT_OQ)); }
-    static unsigned not_greater(Floats a, Floats b) {
-        return signs(_mm256_cmp_ps(a, b, _CMP_LE_OQ));
-    }
+    // Masks: all bits of a lane set or none; comparisons are false where either is NaN.
+    static Floats equal(Floats a, Floats b) { return _mm256_cmp_ps(a, b, _CMP_EQ_OQ); }
+    static Floats less(Floats a, Floats b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }
+    static Floats not_greater(Floats a, Floats b) { return _mm256_cmp_ps(a, b, _CMP_LE_OQ); }
+    static Floats both(Floats a, Floats b) { return _mm256_and_ps(a, b); }
+    static Floats either(Floats a, Floats b) { return _mm256_or_ps(a, b); }
+    /// One bit a lane: its sign, or that it is in a mask.
+    static unsigned bits(Floats x) { return static_cast<unsigned>(_mm256_movemask_ps(x)); }
     /// Writes the numbers whose bit is set, in order, and anything behind them up to eight.
     static void store_packed(std::uint32_t* to, const std::uint32_t* from, unsigned mask) {
         const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
