@@ -1,7 +1,7 @@
 #include "renderer/options.h"
 
-#include "renderer/io/nearest_name.h"
 #include "renderer/io/parse_number.h"
+#include "renderer/unknown_argument.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -217,21 +217,6 @@ void add_output_flags(CLI::App& app, Options& options) {
     app.add_option("--stats", options.stats_file, "Write what was measured as JSON")
         ->type_name("FILE");
     app.add_flag("--quiet,-q", options.quiet, "Print errors only");
-}
-
-/// `nearest` for the first of the arguments that no option took.
-std::string unknown_argument(const CLI::App& app) {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : app.get_options())
-        for (const std::string& name : option->get_lnames())
-            names.push_back("--" + name);
-    const std::vector<std::string_view> views(names.begin(), names.end());
-    for (const std::string& argument : app.remaining(true))
-        if (argument.starts_with("-"))
-            return fmt::format("unknown option '{}'{}", argument,
-                               did_you_mean(argument.substr(0, argument.find('=')), views));
-    const auto rest = app.remaining(true);
-    return fmt::format("unexpected argument '{}'", rest.empty() ? "" : rest.front());
 }
 
 /// What CLI11 cannot see: flags that contradict each other.

@@ -1,6 +1,6 @@
 #include "tools/compare_options.h"
 
-#include "renderer/io/nearest_name.h"
+#include "renderer/unknown_argument.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -49,18 +49,6 @@ void add_z_test(CLI::App& app, CompareOptions& options) {
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
     app.add_flag("!--no-z-test", options.z_test, "Leave the z-tests out");
-}
-
-/// The first argument that no option took, with the nearest option.
-std::string unknown_argument(const CLI::App& app) {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : app.get_options())
-        for (const std::string& name : option->get_lnames())
-            names.push_back("--" + name);
-    const std::vector<std::string_view> views(names.begin(), names.end());
-    const std::string argument = app.remaining().front();
-    const std::string name = argument.substr(0, argument.find('='));
-    return fmt::format("unexpected '{}'{}", argument, did_you_mean(name, views));
 }
 
 } // namespace

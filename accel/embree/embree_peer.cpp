@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <variant>
 #include <vector>
 #include <xmmintrin.h>
@@ -41,20 +42,27 @@ class FlushDenormals {
 
 std::uint64_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
 
+/// With denormals read as zero, the smallest tnear above a tmin of 0 is the smallest normal number.
+Ray without_denormals(Ray ray) {
+    ray.tmin = std::max(ray.tmin, std::numeric_limits<float>::min());
+    return ray;
+}
+
 template <class P> std::vector<P> packets_of(std::span<const Ray> rays) {
     std::vector<P> packets((rays.size() + packet_width - 1) / packet_width);
     for (std::size_t i = 0; i < packets.size() * packet_width; ++i) {
         P& packet = packets[i / packet_width];
         const auto lane = static_cast<unsigned>(i % packet_width);
         packet.lanes[lane] = i < rays.size() ? -1 : 0;
-        embree::set_lane(packet.rays, lane, rays[std::min(i, rays.size() - 1)]);
+        embree::set_lane(packet.rays, lane, without_denormals(rays[std::min(i, rays.size() - 1)]));
     }
     return packets;
 }
 
 template <class Q, class F> std::vector<Q> singles_of(std::span<const Ray> rays, F&& convert) {
     std::vector<Q> queries(rays.size());
-    std::transform(rays.begin(), rays.end(), queries.begin(), convert);
+    std::transform(rays.begin(), rays.end(), queries.begin(),
+                   [&](const Ray& ray) { return convert(without_denormals(ray)); });
     return queries;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <ctime>
 #include <new>
 #include <stdexcept>
 
@@ -106,7 +107,9 @@ struct EmbreeScene::Parts {
 
     template <class F> void timed(F&& work) {
         const auto start = std::chrono::steady_clock::now();
+        const std::clock_t cpu_start = std::clock();
         work();
+        commit_cpu_s += static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
         commit_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
 
@@ -172,7 +175,7 @@ struct EmbreeScene::Parts {
     std::atomic<std::int64_t> bytes{0};
     RTCError error = RTC_ERROR_NONE;
     std::string message;
-    double commit_s = 0;
+    double commit_s = 0, commit_cpu_s = 0;
     // Last, so that they are released while the callbacks' targets still exist.
     Device device;
     Scene scene;
@@ -184,6 +187,7 @@ EmbreeScene::~EmbreeScene() = default;
 
 void* EmbreeScene::handle() const { return parts_->scene.get(); }
 double EmbreeScene::commit_s() const { return parts_->commit_s; }
+double EmbreeScene::commit_cpu_s() const { return parts_->commit_cpu_s; }
 std::size_t EmbreeScene::bytes() const {
     return static_cast<std::size_t>(std::max(std::int64_t{0}, parts_->bytes.load()));
 }

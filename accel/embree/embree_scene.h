@@ -19,8 +19,10 @@ class EmbreeScene {
     EmbreeScene& operator=(const EmbreeScene&) = delete;
 
     [[nodiscard]] void* handle() const; ///< Embree's handle of the scene
-    /// What Embree itself took, without the copying of vertices into its buffers.
+    /// What Embree itself took, without the copying of vertices into its buffers: wall time.
     [[nodiscard]] double commit_s() const;
+    /// The same as CPU time of all threads.
+    [[nodiscard]] double commit_cpu_s() const;
     [[nodiscard]] std::size_t bytes() const; ///< held for Embree now, its copies of vertices too
 
   private:

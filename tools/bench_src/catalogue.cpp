@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::array<CatalogueEntry, 8> entries{{
     {"cornell", "box room, two blocks: 36", cornell, 1},
-    {"teapot", "fine teapot in a coarse stadium: 47 k", teapot, 0.05},
+    {"teapot", "fine teapot in a coarse stadium: 49 k", teapot, 0.05},
     {"needles", "long thin triangles at random: 60 k", needles, 0.02},
     {"bunny-like", "smooth closed surface: 69 k", blob, 0.05},
-    {"hall", "colonnade with arches and stairs: 0.3 M", hall, 0.02},
+    {"hall", "colonnade with arches and stairs: 0.37 M", hall, 0.02},
     {"hair", "curled strands, thin ribbons: 0.84 M", hair, 0.01},
     {"scan-like", "rough closed surface: 1.6 M", scan, 0.005},
     {"terrain", "planet with mountains: 5.2 M", terrain, 0.002},

@@ -17,6 +17,7 @@ void add_naive(std::vector<Config>& configs) {
         Config config;
         config.structure.accel = AccelKind::naive;
         config.structure.build.triangle_test = test;
+        config.structure.build.threads = 1; // whatever is asked
         config.structure.name = config.name = watertight ? "naive" : "naive/mt";
         config.by_default = watertight;
         configs.push_back(config);

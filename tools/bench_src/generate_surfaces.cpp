@@ -89,9 +89,9 @@ BenchMesh terrain(double detail) {
 BenchMesh blob(double detail) {
     BenchMesh mesh = star_shaped(scaled(93, detail), [](Vec3 d) {
         return 1 + 0.45f * gradient_noise(d * 1.3f, 5) +
-               0.06f * fractal_noise(d * 5.0f, 3, 0.5f, 7);
+               0.05f * fractal_noise(d * 4.0f, 2, 0.4f, 7);
     });
-    mesh.view = {{1.6f, 1.1f, 2.1f}, {0, 0, 0}, {0, 1, 0}, 45, {2, 3, 1}, 0.2f};
+    mesh.view = {{1.6f, 1.1f, 2.1f}, {0, 0, 0}, {0, 1, 0}, 52, {2, 3, 1}, 0.2f};
     return mesh;
 }
 
@@ -100,7 +100,7 @@ BenchMesh scan(double detail) {
         return 1 + 0.4f * fractal_noise(d * 1.5f, 4, 0.45f, 31) +
                0.004f * fractal_noise(d * 90.0f, 2, 0.6f, 37);
     });
-    mesh.view = {{-1.7f, 0.9f, 2.0f}, {0, 0, 0}, {0, 1, 0}, 45, {2, 3, 1}, 0.2f};
+    mesh.view = {{-1.7f, 0.9f, 2.0f}, {0, 0, 0}, {0, 1, 0}, 52, {1, 3, 3}, 0.2f};
     return mesh;
 }
 

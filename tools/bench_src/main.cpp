@@ -20,7 +20,11 @@ RunInfo info_of(const Options& options) {
     info.command_line = options.command_line;
     info.cpu = cpu_model();
     info.embree = embree_version();
-    info.compiler = "g++ " __VERSION__;
+#ifdef __clang__
+    info.compiler = __VERSION__;
+#else
+    info.compiler = "GCC " __VERSION__;
+#endif
     info.isas = supported_isas();
     info.threads = options.threads;
     info.repetitions = options.measure.repetitions;

@@ -141,8 +141,7 @@ MeshResult measure(const BenchMesh& mesh, const MeasureOptions& options, Progres
     }
     progress.stage(mesh.name + ": making rays");
     References references(view);
-    const auto guide = make_intersector(AccelKind::sah, view, {});
-    const auto ray_sets = make_ray_sets(mesh, *guide);
+    const auto ray_sets = make_ray_sets(mesh, *make_intersector(AccelKind::sah, view, {}));
     for (const RayKind kind : options.kinds)
         for (const RaySet& rays : ray_sets) {
             std::vector<Contestant> contestants;

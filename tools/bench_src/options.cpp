@@ -1,6 +1,7 @@
 #include "tools/bench_src/options.h"
 
 #include "renderer/io/nearest_name.h"
+#include "renderer/unknown_argument.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -100,18 +101,6 @@ void print_list(int threads) {
     for (const Config& config : all_configs(threads))
         out += fmt::format("{} {}\n", config.by_default ? " +" : "  ", config.name);
     std::fputs(out.c_str(), stdout);
-}
-
-/// The first argument that no option took, with the nearest option.
-std::string unknown_argument(const CLI::App& app) {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : app.get_options())
-        for (const std::string& name : option->get_lnames())
-            names.push_back("--" + name);
-    const std::vector<std::string_view> views(names.begin(), names.end());
-    const std::string argument = app.remaining().front();
-    const std::string name = argument.substr(0, argument.find('='));
-    return fmt::format("unexpected '{}'{}", argument, did_you_mean(name, views));
 }
 
 void add_selection(CLI::App& app, Options& options, Raw& raw) {

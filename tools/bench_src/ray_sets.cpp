@@ -13,6 +13,13 @@ namespace {
 constexpr std::size_t image_side = 1024, tile_side = 16, tile_rays = tile_side * tile_side;
 constexpr std::size_t image_tiles = image_side * image_side / tile_rays;
 
+/// Whether the i-th of many is among an evenly spread `share` of them (golden ratio, so that rows
+/// of any length are cut at ever other places).
+bool chosen(std::size_t i, double share) {
+    const std::uint32_t place = static_cast<std::uint32_t>(i) * 2654435769u;
+    return static_cast<double>(place) < share * 0x1p32;
+}
+
 /// Offset of the i-th pixel of a tile: 4 x 4 blocks of 4 x 4 pixels.
 std::array<std::size_t, 2> pixel_in_tile(std::size_t i) {
     const std::size_t block = i / 16, pixel = i % 16;
@@ -26,12 +33,11 @@ std::vector<Ray> primary_rays(const BenchMesh& mesh) {
     const Vec3 up = cross(right, forward);
     const SinCos half = sincos_radians(view.fov_x_deg * (pi / 360));
     const float scale = half.sin / half.cos;
-    const std::size_t stride = std::max<std::size_t>(
-        1, image_tiles * tile_rays / std::max<std::size_t>(tile_rays, mesh.coherent_rays));
+    const double share =
+        static_cast<double>(mesh.coherent_rays) / static_cast<double>(image_side * image_side);
     std::vector<Ray> rays;
-    rays.reserve(image_tiles / stride * tile_rays);
-    for (std::size_t tile = stride / 2; tile < image_tiles; tile += stride)
-        for (std::size_t i = 0; i < tile_rays; ++i) {
+    for (std::size_t tile = 0; tile < image_tiles; ++tile)
+        for (std::size_t i = 0; i < tile_rays && chosen(tile, share); ++i) {
             const auto [x, y] = pixel_in_tile(i);
             constexpr std::size_t row = image_side / tile_side;
             const auto to_screen = [](std::size_t p) {
@@ -106,13 +112,13 @@ std::vector<Ray> random_segments(const BenchMesh& mesh, Random& random) {
     return rays;
 }
 
-/// At most about `count` rays: every n-th run of as many rays as a tile has.
+/// About `count` rays: some of the runs of as many rays as a tile has.
 std::vector<Ray> thinned(const std::vector<Ray>& rays, std::size_t count) {
-    const std::size_t stride =
-        std::max<std::size_t>(1, rays.size() / std::max<std::size_t>(1, count));
+    const double share =
+        static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(1, rays.size()));
     std::vector<Ray> kept;
     for (std::size_t i = 0; i < rays.size(); ++i)
-        if (i / tile_rays % stride == 0)
+        if (chosen(i / tile_rays, share))
             kept.push_back(rays[i]);
     return kept;
 }

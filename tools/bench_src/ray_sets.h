@@ -28,12 +28,13 @@ struct RaySet {
     }
 };
 
-/// primary: a pinhole image of 1024 x 1024 pixel centres, in tiles of 16 x 16 pixels from left to
-/// right and top to bottom, in each tile blocks of 4 x 4, so that 16 neighbours are one block.
-/// Where the mesh asks for fewer rays, every n-th tile. shadow: from each primary hit to a random
-/// point of the light, same order, leaving out the misses. diffuse: a cosine-distributed direction
-/// at primary hits, in order. later: the same once more from the hits of diffuse rays, shuffled.
-/// random: segments between two uniform points of the mesh's box.
+/// - primary: a pinhole image of 1024 x 1024 pixel centres, in tiles of 16 x 16 pixels from left to
+///   right and top to bottom, in each tile blocks of 4 x 4, so that 16 neighbours are one block.
+///   Where the mesh asks for fewer rays, some of the tiles, evenly spread.
+/// - shadow: from each primary hit to a random point of the light, same order, without the misses.
+/// - diffuse: a cosine-distributed direction at primary hits, in order.
+/// - later: the same once more from the hits of diffuse rays, shuffled.
+/// - random: segments between two uniform points of the mesh's box.
 ///
 /// The sets depend on the mesh alone: `guide` finds the hits, and must give the bits of naive with
 /// the watertight test over this mesh as its only geometry.

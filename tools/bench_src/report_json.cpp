@@ -117,7 +117,7 @@ std::string to_json(const RunInfo& info, const std::vector<MeshResult>& meshes) 
     member("isas", array(info.isas, [](Isa isa) { return text(name_of(isa)); }));
     member("embree", text(info.embree));
     member("compiler", text(info.compiler));
-    member("clock", text("CPU time of one thread; builds: wall time"));
+    member("clock", text("CPU time; builds on several threads: wall time"));
     member("build_threads", std::to_string(info.threads));
     member("repetitions", std::to_string(info.repetitions));
     member("seconds", number(info.seconds));

@@ -31,10 +31,10 @@ std::string rate(double mrays_s) {
 }
 
 std::string builds_text(const MeshResult& mesh) {
-    std::string out = fmt::format("  {:<33}{:>11}{:>10}{:>12}{:>10}{:>8}\n", "build", "ms",
+    std::string out = fmt::format("  {:<31}{:>11}{:>10}{:>12}{:>10}{:>8}\n", "build", "ms",
                                   "Mtri/s", "bytes/tri", "SAH cost", "depth");
     for (const BuildResult& b : mesh.builds)
-        out += fmt::format("  {:<33}{:>11.2f}{:>10.2f}{:>12.1f}{:>10}{:>8}\n", b.structure,
+        out += fmt::format("  {:<31}{:>11.2f}{:>10.2f}{:>12.1f}{:>10}{:>8}\n", b.structure,
                            1e3 * b.median_s(), mesh.mtriangles_s(b), mesh.bytes_per_triangle(b),
                            b.stats.sah_cost > 0 ? fmt::format("{:.2f}", b.stats.sah_cost) : "-",
                            b.stats.depth > 0 ? std::to_string(b.stats.depth) : "-");
@@ -46,14 +46,14 @@ std::string cell_text(const Cell& cell) {
         "\n  {} ({}): {} rays, {:.1f} % hit\n", name_of(cell.kind), description_of(cell.kind),
         grouped(cell.rays), 100 * static_cast<double>(cell.hits) / static_cast<double>(cell.rays));
     out +=
-        fmt::format("  {:<33}{:>9}{:>9}{:>9}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}\n", "Mrays/s", "median",
+        fmt::format("  {:<31}{:>8}{:>8}{:>8}{:>9}{:>8}{:>8}{:>8}{:>8}{:>7}\n", "Mrays/s", "median",
                     "min", "max", "/default", "/robust", "/packet", "nodes", "tris", "wrong");
     const double base_default = cell.best_default(), base_robust = cell.best_robust();
     for (const Entry& e : cell.entries) {
         const auto [low, high] = std::minmax_element(e.mrays_s.begin(), e.mrays_s.end());
         const auto to_packet = e.wide ? ratio_of(e.median(), cell.best_packet()) : std::nullopt;
         out += fmt::format(
-            "  {:<33}{:>9}{:>9}{:>9}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}\n", e.config, rate(e.median()),
+            "  {:<31}{:>8}{:>8}{:>8}{:>9}{:>8}{:>8}{:>8}{:>8}{:>7}\n", e.config, rate(e.median()),
             rate(*low), rate(*high), ratio_text(ratio_of(e.median(), base_default)),
             ratio_text(ratio_of(e.median(), base_robust)), ratio_text(to_packet),
             per_ray(e.counts.nodes, cell, e), per_ray(e.counts.triangles, cell, e), e.wrong);

@@ -28,7 +28,9 @@ class Structure {
     void build();
 
     [[nodiscard]] const StructureConfig& config() const { return config_; }
-    [[nodiscard]] const std::vector<double>& build_s() const { return build_s_; } ///< wall time
+    /// Of each build: CPU time of the process where it has one thread, else wall time. Embree's is
+    /// that of its commits, without copying the vertices into its buffers.
+    [[nodiscard]] const std::vector<double>& build_s() const { return build_s_; }
     [[nodiscard]] AccelStats stats() const; ///< of Embree: the bytes alone
     [[nodiscard]] TraversalCounts count(const RaySet& rays) const;
 
