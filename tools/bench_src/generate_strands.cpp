@@ -50,8 +50,8 @@ BenchMesh needles(double detail) {
         mesh.add_triangle(first, first + 1, mesh.add_vertex(tail + along * 1.5f));
     }
     mesh.view = {{2.2f, 1.6f, 2.6f}, {0, 0, 0}, {0, 1, 0}, 45, {3, 4, 1}, 0.3f};
-    mesh.coherent_rays = std::size_t{1} << 16u;
-    mesh.incoherent_rays = std::size_t{1} << 15u;
+    mesh.coherent_rays = std::size_t{1} << 14u;
+    mesh.incoherent_rays = std::size_t{1} << 13u;
     return mesh;
 }
 

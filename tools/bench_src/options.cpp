@@ -23,7 +23,7 @@ constexpr const char* footer =
     "  bench --quick                                small meshes, a few seconds\n"
     "  bench --meshes hall,hair --rays primary      two meshes, camera rays only\n"
     "  bench --mesh bunny.ply --configs 'sah/*'     a file, every variant of our own tree\n"
-    "  bench --json bench.json                      everything: about half an hour\n"
+    "  bench --json bench.json                      everything: about a quarter of an hour\n"
     "Exit codes: 0 done, 2 usage, 4 a mesh cannot be read, 5 the JSON cannot be written,\n"
     "6 resources, 70 internal.";
 
