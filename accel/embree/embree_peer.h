@@ -40,7 +40,7 @@ class EmbreePeer {
 
     /// The same rays, answers kept: one hit for each ray, or t = 0 of an anonymous hit (geometry
     /// and primitive 0) where an any-hit query found one. Returns trace()'s checksum.
-    std::uint64_t trace(const EmbreeRays& rays, std::span<Hit> hits) const;
+    [[nodiscard]] std::uint64_t trace(const EmbreeRays& rays, std::span<Hit> hits) const;
 
     [[nodiscard]] const EmbreeScene& scene() const { return scene_; }
 

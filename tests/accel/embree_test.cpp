@@ -140,7 +140,7 @@ TEST(EmbreePeer, RaysThatStartOnASurfaceDoNotHitIt) {
         for (const int packet : {1, 16}) {
             const EmbreePeer peer(scene.view(), {.robust = robust});
             std::vector<Hit> hits(rays.size());
-            peer.trace(EmbreeRays(rays, true, packet), hits);
+            static_cast<void>(peer.trace(EmbreeRays(rays, true, packet), hits));
             EXPECT_TRUE(
                 std::none_of(hits.begin(), hits.end(), [](const Hit& hit) { return hit.valid(); }))
                 << robust << packet;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace plumb::bench {
 namespace {
@@ -38,6 +39,7 @@ struct Raw {
 template <class Range, class Name>
 std::vector<std::string_view> names_of(const Range& range, Name&& name) {
     std::vector<std::string_view> names;
+    names.reserve(std::size(range));
     for (const auto& item : range)
         names.emplace_back(name(item));
     return names;

@@ -47,7 +47,7 @@ class Structure {
 
     /// The same queries, answers kept: one for each ray. Any-hit queries give an anonymous hit
     /// (t, geometry and primitive 0) or a miss. Returns the checksum that every trace() must give.
-    std::uint64_t answers(const Prepared& prepared, std::span<Hit> hits) const;
+    [[nodiscard]] std::uint64_t answers(const Prepared& prepared, std::span<Hit> hits) const;
 
   private:
     StructureConfig config_;
