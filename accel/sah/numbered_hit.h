@@ -10,6 +10,8 @@ struct NumberedHit {
     PrimitiveNumber number = invalid_id;
 
     explicit NumberedHit(float tmax) : t(tmax) {}
+    NumberedHit(float t_, float u_, float v_, PrimitiveNumber number_)
+        : t(t_), u(u_), v(v_), number(number_) {}
 
     /// Of two hits at the same t the lower number stays.
     void keep_closer(const PrimitiveHit& hit, PrimitiveNumber candidate) {

@@ -49,5 +49,12 @@ struct Lanes {
     }
 };
 
+/// One number of eight: `choose` takes the better of two, lane by lane.
+template <class Choose> inline float fold(__m256 x, Choose choose) {
+    __m128 four = choose(_mm256_castps256_ps128(x), _mm256_extractf128_ps(x, 1));
+    four = choose(four, _mm_movehl_ps(four, four));
+    return _mm_cvtss_f32(choose(four, _mm_shuffle_ps(four, four, 1)));
+}
+
 } // namespace
 } // namespace plumb

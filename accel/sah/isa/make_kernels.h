@@ -2,7 +2,7 @@
 #pragma once
 
 #include "accel/sah/isa/kernels.h"
-#include "accel/sah/isa/wide_traverse.h"
+#include "accel/sah/isa/packet_traverse.h"
 #include "accel/sah/wide_careful.h"
 
 namespace plumb {
@@ -18,7 +18,15 @@ inline bool resembles_last(const Ray& ray, float reach) {
     return (_mm_movemask_ps(_mm_cmplt_ps(step, _mm_set1_ps(reach * 0x1p-6f))) & 7) == 7;
 }
 
-template <class V, TriangleTest Test> struct Kernels {
+/// For instruction sets without packets.
+struct NoPackets {
+    static constexpr int width = 0;
+};
+
+/// `V`: lanes of boxes and triangles, `P`: lanes of rays or NoPackets.
+template <class V, class P, TriangleTest Test> struct Kernels {
+    static constexpr bool has_packets = P::width > 0 && Test == TriangleTest::watertight;
+
     static Hit closest(const WideView& tree, const Ray& ray) {
         if (!WideRay::is_ordinary(ray, tree.reach)) [[unlikely]]
             return closest_careful(tree, ray, Test);
@@ -37,16 +45,30 @@ template <class V, TriangleTest Test> struct Kernels {
                    ? occluded_ordinary<V, Test, Guess::branch>(tree, ray, NoCounter{})
                    : occluded_ordinary<V, Test, Guess::select>(tree, ray, NoCounter{});
     }
+
     static void closest_stream(const WideView& tree, std::span<const Ray> rays,
                                std::span<Hit> hits) {
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            hits[i] = closest(tree, rays[i]);
+        for_each_packet(
+            tree, rays, [&](std::size_t i) { hits[i] = closest(tree, rays[i]); },
+            [&](std::size_t first, std::span<const Ray> part, auto& packet) {
+                PacketTraversal<V, LanesOf<decltype(packet)>, false> traversal(tree, part, packet);
+                traversal.run();
+                for (std::size_t i = 0; i < part.size(); ++i)
+                    hits[first + i] = traversal.hit(i);
+            });
     }
     static void occluded_stream(const WideView& tree, std::span<const Ray> rays,
                                 std::span<std::uint8_t> found) {
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            found[i] = occluded(tree, rays[i]) ? 1 : 0;
+        for_each_packet(
+            tree, rays, [&](std::size_t i) { found[i] = occluded(tree, rays[i]) ? 1 : 0; },
+            [&](std::size_t first, std::span<const Ray> part, auto& packet) {
+                PacketTraversal<V, LanesOf<decltype(packet)>, true> traversal(tree, part, packet);
+                traversal.run();
+                for (std::size_t i = 0; i < part.size(); ++i)
+                    found[first + i] = traversal.found(i) ? 1 : 0;
+            });
     }
+
     static TraversalCounts count(const WideView& tree, std::span<const Ray> rays, bool any_hit) {
         TraversalCounts counts;
         for (const Ray& ray : rays) {
@@ -59,17 +81,43 @@ template <class V, TriangleTest Test> struct Kernels {
         }
         return counts;
     }
+
+  private:
+    template <class Packet> using LanesOf = typename std::remove_reference_t<Packet>::Lanes;
+
+    /// Hands out rays that run alike as packets, others one by one.
+    template <class One, class Many>
+    static void for_each_packet(const WideView& tree, std::span<const Ray> rays, One&& one,
+                                Many&& many) {
+        std::size_t begin = 0;
+        if constexpr (has_packets) {
+            while (begin < rays.size() && !tree.empty) {
+                const std::size_t count = std::min<std::size_t>(P::width, rays.size() - begin);
+                if (count < P::width / 2)
+                    break;
+                RayPacket<P> packet(rays.subspan(begin, count), tree.reach);
+                if (packet.alike)
+                    many(begin, rays.subspan(begin, count), packet);
+                else
+                    for (std::size_t i = begin; i < begin + count; ++i)
+                        one(i);
+                begin += count;
+            }
+        }
+        for (; begin < rays.size(); ++begin)
+            one(begin);
+    }
 };
 
-template <class V, TriangleTest Test> WideKernels kernels_with() {
-    using K = Kernels<V, Test>;
+template <class V, class P, TriangleTest Test> WideKernels kernels_with() {
+    using K = Kernels<V, P, Test>;
     return {K::closest, K::occluded, K::closest_stream, K::occluded_stream, K::count};
 }
 
-template <class V> WideKernels make_kernels(TriangleTest test) {
+template <class V, class P> WideKernels make_kernels(TriangleTest test) {
     return test == TriangleTest::moeller_trumbore
-               ? kernels_with<V, TriangleTest::moeller_trumbore>()
-               : kernels_with<V, TriangleTest::watertight>();
+               ? kernels_with<V, P, TriangleTest::moeller_trumbore>()
+               : kernels_with<V, P, TriangleTest::watertight>();
 }
 
 } // namespace

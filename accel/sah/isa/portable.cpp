@@ -12,7 +12,7 @@ namespace plumb {
 
 #ifdef __SSE2__
 
-WideKernels portable_kernels(TriangleTest test) { return make_kernels<Lanes>(test); }
+WideKernels portable_kernels(TriangleTest test) { return make_kernels<Lanes, NoPackets>(test); }
 
 #else
 

@@ -17,7 +17,8 @@ template <class V> class NodeTest {
   public:
     using Floats = typename V::Floats;
 
-    explicit NodeTest(const WideRay& ray) : tmin_(V::broadcast(ray.tmin)) {
+    /// A WideRay, or a PacketHull.
+    template <class R> explicit NodeTest(const R& ray) : tmin_(V::broadcast(ray.tmin)) {
         for (int axis = 0; axis < 3; ++axis) {
             near_inverse_[axis] = V::broadcast(ray.near_inverse[axis]);
             near_addend_[axis] = V::broadcast(ray.near_addend[axis]);
@@ -92,16 +93,14 @@ struct Counter {
     }
 };
 
-/// For rays that are ordinary (WideRay::is_ordinary) and trees that are not empty.
+/// Looks for closer hits than `best` below `current`, in a tree that is not empty.
 template <class V, TriangleTest Test, Guess G, class Counter>
-Hit closest_ordinary(const WideView& tree, const Ray& ray, Counter count) {
-    const WideRay wide(ray, tree.reach);
+inline void find_closest(const WideView& tree, const WideRay& wide, WideRef current,
+                         NumberedHit& best, Counter count) {
     const NodeTest<V> test(wide);
     StackEntry stack[wide_max_stack];
     int size = 0;
-    NumberedHit best(ray.tmax);
     typename V::Floats limit = V::broadcast(best.t);
-    WideRef current{};
     for (;;) {
         if (!current.is_leaf()) {
             const auto& node = tree.at<WideNode>(current);
@@ -123,21 +122,20 @@ Hit closest_ordinary(const WideView& tree, const Ray& ray, Counter count) {
         }
         do {
             if (size == 0)
-                return best.with_ids(tree);
+                return;
             --size;
         } while (near_of(stack[size]) > best.t);
         current = ref_of(stack[size]);
     }
 }
 
+/// Whether there is any hit below `current`, in a tree that is not empty.
 template <class V, TriangleTest Test, Guess G, class Counter>
-bool occluded_ordinary(const WideView& tree, const Ray& ray, Counter count) {
-    const WideRay wide(ray, tree.reach);
+inline bool find_any(const WideView& tree, const WideRay& wide, WideRef current, Counter count) {
     const NodeTest<V> test(wide);
-    const typename V::Floats limit = V::broadcast(ray.tmax);
+    const typename V::Floats limit = V::broadcast(wide.tmax);
     std::uint32_t stack[wide_max_stack]; // not WideRefs, which would be set to zero first
     int size = 0;
-    WideRef current{};
     for (;;) {
         if (!current.is_leaf()) {
             const auto& node = tree.at<WideNode>(current);
@@ -151,7 +149,7 @@ bool occluded_ordinary(const WideView& tree, const Ray& ray, Counter count) {
             }
         } else {
             count.leaf(tree, current);
-            if (visit_leaf<V, Test>(tree, current, wide, ray.tmax,
+            if (visit_leaf<V, Test>(tree, current, wide, wide.tmax,
                                     [](PrimitiveNumber, const PrimitiveHit&) { return true; }))
                 return true;
         }
@@ -159,6 +157,20 @@ bool occluded_ordinary(const WideView& tree, const Ray& ray, Counter count) {
             return false;
         current = WideRef{stack[--size]};
     }
+}
+
+/// For rays that are ordinary (WideRay::is_ordinary) and trees that are not empty.
+template <class V, TriangleTest Test, Guess G, class Counter>
+Hit closest_ordinary(const WideView& tree, const Ray& ray, Counter count) {
+    const WideRay wide(ray, tree.reach);
+    NumberedHit best(ray.tmax);
+    find_closest<V, Test, G>(tree, wide, WideRef{}, best, count);
+    return best.with_ids(tree);
+}
+
+template <class V, TriangleTest Test, Guess G, class Counter>
+bool occluded_ordinary(const WideView& tree, const Ray& ray, Counter count) {
+    return find_any<V, Test, G>(tree, WideRay(ray, tree.reach), WideRef{}, count);
 }
 
 } // namespace

@@ -1,0 +1,206 @@
+/// \file  Packets of rays through the 8-wide tree, for coherent streams.
+///
+/// A node is tested against the hull of the packet (all eight children at once), a child's box
+/// against each ray (all rays at once) when the child's turn comes, so a box costs a packet little
+/// more than a ray. Where few rays are left in a box they go on one by one: S. Woop et al.,
+/// "Embree", SIGGRAPH 2014, calls that hybrid traversal; the hull is that of W. Reshetov, A.
+/// Soupikov, J. Hurley, "Multi-Level Ray Tracing Algorithm", SIGGRAPH 2005, as intervals. Same hits
+/// as ray by ray: the tests are conservative, the triangle test is the same.
+#pragma once
+
+#include "accel/sah/isa/packet_triangles.h"
+#include "accel/sah/isa/wide_traverse.h"
+
+namespace plumb {
+namespace {
+
+/// Rays in a box from which on they are traced together.
+inline constexpr int packet_min_in_node = 3, packet_min_in_leaf = 4;
+
+/// A child that waits: its key (see StackEntry), and its planes in the node above, of which the
+/// next are 8 floats on. Null for the root.
+struct PacketEntry {
+    StackEntry key;
+    const float* planes;
+};
+
+/// The rays that enter a box at or before their best t.
+template <class P>
+[[gnu::always_inline]] inline unsigned rays_in_box(const RayPacket<P>& packet,
+                                                   const float* planes) {
+    using Floats = typename P::Floats;
+    Floats near = P::load(packet.tmin), far = P::load(packet.best_t);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t down = packet.negative >> axis & 1u;
+        const Floats enter = P::broadcast(planes[wide_width * (2 * axis + down)]);
+        const Floats leave = P::broadcast(planes[wide_width * (2 * axis + 1 - down)]);
+        near = P::max(P::multiply_add(enter, P::load(packet.near_inverse[axis]),
+                                      P::load(packet.near_addend[axis])),
+                      near);
+        far = P::min(P::multiply_add(leave, P::load(packet.far_inverse[axis]),
+                                     P::load(packet.far_addend[axis])),
+                     far);
+    }
+    return P::bits(P::not_greater(near, far));
+}
+
+/// One packet on its way. `AnyHit`: rays leave it at their first hit.
+template <class V, class P, bool AnyHit> class PacketTraversal {
+  public:
+    PacketTraversal(const WideView& tree, std::span<const Ray> rays, RayPacket<P>& packet)
+        : tree_(tree), rays_(rays), packet_(packet), test_(PacketHull<P>(packet)) {
+        for (PrimitiveNumber& number : number_)
+            number = invalid_id;
+        find_farthest();
+    }
+
+    void run() {
+        stack_[0] = {stack_entry(WideRef{}, 0), nullptr};
+        size_ = 1;
+        while (size_ > 0) {
+            const PacketEntry entry = stack_[--size_];
+            if (near_of(entry.key) > farthest_)
+                continue;
+            const unsigned active =
+                entry.planes != nullptr ? rays_in_box(packet_, entry.planes) : all_rays;
+            const WideRef ref = ref_of(entry.key);
+            const int count = std::popcount(active);
+            if (count < (ref.is_leaf() ? packet_min_in_leaf : packet_min_in_node) ||
+                (ref.is_leaf() && ref.has_spheres()))
+                go_on_alone(active, ref);
+            else if (ref.is_leaf())
+                visit(active, tree_.at<WideTriangles>(ref));
+            else
+                push_children(tree_.at<WideNode>(ref));
+        }
+    }
+
+    [[nodiscard]] Hit hit(std::size_t ray) const { return best(ray).with_ids(tree_); }
+    [[nodiscard]] bool found(std::size_t ray) const { return number_[ray] != invalid_id; }
+
+  private:
+    static constexpr unsigned all_rays = (1u << P::width) - 1;
+
+    NumberedHit best(std::size_t ray) const {
+        return {packet_.best_t[ray], u_[ray], v_[ray], number_[ray]};
+    }
+    void find_farthest() { farthest_ = P::largest(P::load(packet_.best_t)); }
+
+    void push_children(const WideNode& node) {
+        typename V::Floats near;
+        unsigned mask = test_(node, V::broadcast(farthest_), near);
+        alignas(32) float distance[wide_width];
+        V::store(distance, near);
+        const int base = size_;
+        for (; mask != 0; mask &= mask - 1) { // insertion, farthest first
+            const auto lane = static_cast<std::size_t>(std::countr_zero(mask));
+            const PacketEntry entry{stack_entry(node.child[lane], distance[lane]),
+                                    &node.planes[0][0][lane]};
+            int i = size_++;
+            for (; i > base && stack_[i - 1].key < entry.key; --i)
+                stack_[i] = stack_[i - 1];
+            stack_[i] = entry;
+        }
+    }
+
+    void go_on_alone(unsigned active, WideRef ref) {
+        for (; active != 0; active &= active - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(active));
+            WideRay& ray = alone(i);
+            if constexpr (AnyHit) {
+                if (find_any<V, TriangleTest::watertight, Guess::branch>(tree_, ray, ref,
+                                                                         NoCounter{}))
+                    take_out(i);
+            } else {
+                NumberedHit closer = best(i);
+                find_closest<V, TriangleTest::watertight, Guess::branch>(tree_, ray, ref, closer,
+                                                                         NoCounter{});
+                keep(i, closer);
+            }
+        }
+        find_farthest();
+    }
+
+    void visit(unsigned active, const WideTriangles& block) {
+        for (std::size_t lane = 0; lane < wide_width; ++lane) {
+            if (lane > 0 && block.number[lane] == block.number[lane - 1])
+                break; // filled up
+            PacketHits<P> hits;
+            test_packet_watertight<P>(packet_, block, lane, P::mask(active), hits);
+            if (P::bits(hits.hit) != 0)
+                keep(hits, block.number[lane]);
+            for (unsigned rest = P::bits(hits.exact); rest != 0; rest &= rest - 1)
+                visit_exactly(static_cast<std::size_t>(std::countr_zero(rest)), block, lane);
+        }
+        find_farthest();
+    }
+
+    void visit_exactly(std::size_t i, const WideTriangles& block, std::size_t lane) {
+        const auto corner = [&](int k) { return block.corner(k, static_cast<int>(lane)); };
+        PrimitiveHit hit;
+        if (!intersect_triangle(PreparedRay(rays_[i]), corner(0), corner(1), corner(2),
+                                packet_.best_t[i], hit))
+            return;
+        NumberedHit closer = best(i);
+        closer.keep_closer(hit, block.number[lane]);
+        keep(i, closer);
+        if constexpr (AnyHit)
+            take_out(i);
+    }
+
+    /// Of hits at the same t the lower number stays.
+    void keep(const PacketHits<P>& hits, PrimitiveNumber number) {
+        if constexpr (AnyHit) {
+            for (unsigned rest = P::bits(hits.hit); rest != 0; rest &= rest - 1)
+                take_out(static_cast<std::size_t>(std::countr_zero(rest)));
+            return;
+        }
+        const typename P::Floats best_t = P::load(packet_.best_t);
+        unsigned closer = P::bits(hits.hit & P::less(hits.t, best_t));
+        unsigned tied = P::bits(hits.hit & P::equal(hits.t, best_t));
+        for (; tied != 0; tied &= tied - 1)
+            if (number < number_[std::countr_zero(tied)])
+                closer |= tied & (~tied + 1);
+        const auto mask = P::mask(closer);
+        P::store_where(packet_.best_t, mask, hits.t);
+        P::store_where(u_, mask, hits.u);
+        P::store_where(v_, mask, hits.v);
+        for (; closer != 0; closer &= closer - 1)
+            number_[std::countr_zero(closer)] = number;
+    }
+    void keep(std::size_t i, const NumberedHit& hit) {
+        packet_.best_t[i] = hit.t;
+        u_[i] = hit.u;
+        v_[i] = hit.v;
+        number_[i] = hit.number;
+    }
+    /// Ends a ray that found a hit: no box is entered before t = -1.
+    void take_out(std::size_t i) {
+        packet_.best_t[i] = -1;
+        number_[i] = 0;
+    }
+
+    /// The ray by itself, made on first use.
+    WideRay& alone(std::size_t i) {
+        auto* ray = reinterpret_cast<WideRay*>(alone_[i]);
+        if ((made_ >> i & 1u) == 0)
+            ray = new (alone_[i]) WideRay(rays_[i], tree_.reach);
+        made_ |= 1u << i;
+        return *ray;
+    }
+
+    const WideView& tree_;
+    std::span<const Ray> rays_;
+    RayPacket<P>& packet_;
+    NodeTest<V> test_;
+    float farthest_; ///< best t of the ray that has it farthest
+    int size_ = 0;
+    unsigned made_ = 0;
+    alignas(64) float u_[P::width], v_[P::width];
+    PrimitiveNumber number_[P::width];
+    PacketEntry stack_[wide_max_stack];
+    alignas(WideRay) std::byte alone_[P::width][sizeof(WideRay)];
+};
+
+} // namespace
+} // namespace plumb

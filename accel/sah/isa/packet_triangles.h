@@ -1,0 +1,80 @@
+/// \file  A packet of rays against one triangle.
+///
+/// Operation by operation what intersect_triangle does, in the same order, as triangle_lanes.h is
+/// for one ray and eight triangles: whoever changes one changes all three.
+#pragma once
+
+#include "accel/sah/isa/ray_packet.h"
+#include "accel/sah/wide_bvh.h"
+
+namespace plumb {
+namespace {
+
+template <class P> struct PacketHits {
+    typename P::Floats t, u, v;
+    typename P::Mask hit;   ///< rays with tmin < t <= best_t; t, u and v hold there
+    typename P::Mask exact; ///< rays for which intersect_triangle has to decide
+};
+
+/// See settle_lanes.
+template <class P>
+[[gnu::always_inline]] inline void settle_packet(const RayPacket<P>& packet,
+                                                 const WideTriangles& block, std::size_t lane,
+                                                 typename P::Mask candidates, PacketHits<P>& hits) {
+    using Floats = typename P::Floats;
+    Floats near, far;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float a = block.vertex[0][axis][lane], b = block.vertex[1][axis][lane];
+        const float c = block.vertex[2][axis][lane];
+        const Floats origin = P::load(packet.origin[axis]), inverse = P::load(packet.inverse[axis]);
+        const Floats p = (P::broadcast(min(a, min(b, c))) - origin) * inverse;
+        const Floats q = (P::broadcast(max(a, max(b, c))) - origin) * inverse;
+        near = axis == 0 ? P::min(p, q) : P::max(P::min(p, q), near);
+        far = axis == 0 ? P::max(p, q) : P::min(P::max(p, q), far);
+    }
+    far = P::max(far * P::broadcast(slab_padding), far); // unpadded where negative
+    hits.t = P::min(far, P::max(near, hits.t));
+    const auto crossed = P::not_greater(near, far);
+    const Floats limit =
+        P::min(P::load(packet.best_t), P::broadcast(std::numeric_limits<float>::max()));
+    hits.hit = candidates & crossed & P::less(P::load(packet.tmin), hits.t) &
+               P::not_greater(hits.t, limit);
+    hits.exact |= candidates & static_cast<typename P::Mask>(~crossed);
+}
+
+template <class P>
+[[gnu::always_inline]] inline void
+test_packet_watertight(const RayPacket<P>& packet, const WideTriangles& block, std::size_t lane,
+                       typename P::Mask active, PacketHits<P>& hits) {
+    using Floats = typename P::Floats;
+    const Floats ox = P::load(packet.origin[packet.kx]), oy = P::load(packet.origin[packet.ky]);
+    const Floats oz = P::load(packet.origin[packet.kz]);
+    const Floats shear_x = P::load(packet.shear[packet.kx]);
+    const Floats shear_y = P::load(packet.shear[packet.ky]);
+    Floats x[3], y[3], z[3];
+    for (int i = 0; i < 3; ++i) {
+        z[i] = P::broadcast(block.vertex[i][packet.kz][lane]) - oz;
+        x[i] = P::broadcast(block.vertex[i][packet.kx][lane]) - ox - shear_x * z[i];
+        y[i] = P::broadcast(block.vertex[i][packet.ky][lane]) - oy - shear_y * z[i];
+    }
+    const Floats u = x[2] * y[1] - y[2] * x[1];
+    const Floats v = x[0] * y[2] - y[0] * x[2];
+    const Floats w = x[1] * y[0] - y[1] * x[0];
+    const Floats zero = P::broadcast(0);
+    hits.exact = active & (P::equal(u, zero) | P::equal(v, zero) | P::equal(w, zero));
+    hits.hit = P::mask(0);
+    const auto mixed = P::signs_differ(u, v) | P::signs_differ(v, w);
+    const auto inside =
+        static_cast<typename P::Mask>(active & ~static_cast<unsigned>(mixed | hits.exact));
+    if (inside == 0)
+        return;
+    const Floats scale = P::broadcast(1) / (u + v + w);
+    hits.u = v * scale;
+    hits.v = w * scale;
+    hits.t =
+        (u * scale * z[0] + hits.u * z[1] + hits.v * z[2]) * P::load(packet.inverse[packet.kz]);
+    settle_packet<P>(packet, block, lane, inside, hits);
+}
+
+} // namespace
+} // namespace plumb
