@@ -59,6 +59,10 @@ class Checker {
         }
         if (node.first <= index || node.first + std::size_t{1} >= tree_.nodes.size())
             return "a child does not come after its parent";
+        Bounds both = tree_.nodes[node.first].bounds;
+        both.extend(tree_.nodes[node.first + 1].bounds);
+        if (!both.contains(node.bounds))
+            return "a box is larger than its children need";
         for (std::uint32_t child = node.first; child < node.first + 2; ++child) {
             if (!node.bounds.contains(tree_.nodes[child].bounds))
                 return "a box does not contain its child's box";

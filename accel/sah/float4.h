@@ -35,6 +35,7 @@ inline Float4 load(const Vec3& v) {
 inline Float4 add(Float4 a, Float4 b) { return _mm_add_ps(a, b); }
 inline Float4 subtract(Float4 a, Float4 b) { return _mm_sub_ps(a, b); }
 inline Float4 multiply(Float4 a, Float4 b) { return _mm_mul_ps(a, b); }
+inline Float4 divide(Float4 a, Float4 b) { return _mm_div_ps(a, b); }
 /// a < b ? a : b
 inline Float4 min(Float4 a, Float4 b) { return _mm_min_ps(a, b); }
 /// a > b ? a : b
@@ -85,6 +86,9 @@ inline Float4 subtract(Float4 a, Float4 b) {
 inline Float4 multiply(Float4 a, Float4 b) {
     return each(a, b, [](float x, float y) { return x * y; });
 }
+inline Float4 divide(Float4 a, Float4 b) {
+    return each(a, b, [](float x, float y) { return x / y; });
+}
 inline Float4 min(Float4 a, Float4 b) {
     return each(a, b, [](float x, float y) { return x < y ? x : y; });
 }
@@ -126,6 +130,7 @@ struct Box {
         lower = min(point, lower);
         upper = max(point, upper);
     }
+    [[nodiscard]] bool is_empty() const { return (less(upper, lower) & 7u) != 0; }
     [[nodiscard]] Float4 extent() const { return subtract(upper, lower); }
     /// Half the surface area after scaling by `scale`; not for empty boxes.
     [[nodiscard]] float half_area(Float4 scale) const {

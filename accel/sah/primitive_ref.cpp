@@ -92,13 +92,24 @@ Chunk fill(const GeometryView& geometry, const PrimitiveNumbers& numbers, std::s
 
 } // namespace
 
-void PrimitiveRange::measure() {
+void PrimitiveRange::measure(const Workers& workers) {
+    std::vector<Chunk> chunks((refs.size() + chunk_size - 1) / chunk_size);
+    workers.for_each(chunks.size(), [&](std::size_t i) {
+        Chunk chunk; // in registers
+        const std::size_t begin = i * chunk_size;
+        for (const PrimitiveRef& ref :
+             refs.subspan(begin, std::min(chunk_size, refs.size() - begin))) {
+            const Box box = ref.box();
+            chunk.bounds.extend(box);
+            chunk.centroids.extend_point(centroid(box));
+        }
+        chunks[i] = chunk;
+    });
     bounds = {};
     centroids = {};
-    for (const PrimitiveRef& ref : refs) {
-        const Box box = ref.box();
-        bounds.extend(box);
-        centroids.extend_point(centroid(box));
+    for (const Chunk& chunk : chunks) {
+        bounds.extend(chunk.bounds);
+        centroids.extend(chunk.centroids);
     }
 }
 

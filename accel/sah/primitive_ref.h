@@ -18,7 +18,7 @@ struct alignas(32) PrimitiveRef {
     float lower[3];
     PrimitiveNumber number;
     float upper[3];
-    std::uint32_t unused;
+    std::uint32_t side; ///< for the spatial split that is being carried out
 
     [[nodiscard]] Box box() const { return {float4::load_xyz(lower), float4::load_xyz(upper)}; }
     void set(const Box& box, PrimitiveNumber n) {
@@ -38,7 +38,7 @@ struct PrimitiveRange {
     Box bounds, centroids;
 
     [[nodiscard]] std::size_t size() const { return refs.size(); }
-    void measure();
+    void measure(const Workers& workers);
 };
 
 /// Where the primitive numbers of each geometry begin.

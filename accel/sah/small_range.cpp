@@ -148,10 +148,13 @@ class SmallRange {
         const std::size_t first = piece_.primitives.size();
         for (std::uint32_t i = begin; i < end; ++i)
             piece_.primitives.push_back(number_[order_[0][i]]);
-        std::sort(piece_.primitives.begin() + static_cast<std::ptrdiff_t>(first),
-                  piece_.primitives.end());
+        const auto list = piece_.primitives.begin() + static_cast<std::ptrdiff_t>(first);
+        std::sort(list, piece_.primitives.end());
+        // Two parts of one triangle are one again.
+        piece_.primitives.erase(std::unique(list, piece_.primitives.end()),
+                                piece_.primitives.end());
         piece_.nodes[node].first = static_cast<std::uint32_t>(first);
-        piece_.nodes[node].count = end - begin;
+        piece_.nodes[node].count = static_cast<std::uint32_t>(piece_.primitives.size() - first);
         piece_.depth = std::max(piece_.depth, depth);
     }
 
