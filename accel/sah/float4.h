@@ -25,7 +25,7 @@ inline Float4 load_xyz(const float* p) {
     const __m128i mask = _mm_setr_epi32(-1, -1, -1, 0);
     return _mm_and_ps(_mm_load_ps(p), _mm_castsi128_ps(mask));
 }
-/// Writes four floats to an address divisible by 16.
+/// Writes three floats to an address divisible by 16, and what it likes to the fourth.
 inline void store(float* p, Float4 x) { _mm_store_ps(p, x); }
 /// A Vec3: reads 12 bytes, wherever they are.
 inline Float4 load(const Vec3& v) {
@@ -73,7 +73,7 @@ inline Float4 broadcast(float x) { return {{x, x, x, x}}; }
 inline Float4 set(float x, float y, float z) { return {{x, y, z, 0}}; }
 inline Float4 load_xyz(const float* p) { return {{p[0], p[1], p[2], 0}}; }
 inline void store(float* p, Float4 x) {
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 3; ++i)
         p[i] = x.lane[i];
 }
 inline Float4 load(const Vec3& v) { return set(v.x, v.y, v.z); }

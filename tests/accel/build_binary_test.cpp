@@ -53,7 +53,8 @@ double mean_leaf_size(const BinaryBvh& tree) {
 bool same_bits(const BinaryBvh& a, const BinaryBvh& b) {
     return a.nodes.size() == b.nodes.size() && a.primitives == b.primitives && a.depth == b.depth &&
            a.primitive_count == b.primitive_count && a.skipped_count == b.skipped_count &&
-           std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(BinaryNode)) == 0;
+           (a.nodes.empty() ||
+            std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(BinaryNode)) == 0);
 }
 
 TEST(BuildBinary, KeepsItsInvariantsOnHardScenes) {
@@ -122,13 +123,17 @@ TEST(BuildBinary, AgreesWithItselfAtAnyScale) {
 }
 
 TEST(BuildBinary, TakesGarbageAsItComes) {
-    // Any bit pattern as a coordinate: what is not traceable is left out, the rest is found.
+    // Any bit pattern as a coordinate: what is not traceable is left out, the rest is found. In two
+    // scenes of three the exponents are such that most are traceable.
     Random random(132);
     for (int scene = 0; scene < 300; ++scene) {
         Mesh mesh;
         const std::size_t count = 1 + random.index(200);
         for (std::size_t i = 0; i < count; ++i) {
-            const auto any = [&] { return std::bit_cast<float>(random.bits()); };
+            const auto any = [&] {
+                const std::uint32_t exponents = scene % 3 == 0 ? 0xffffffffu : 0xbfffffffu;
+                return std::bit_cast<float>(random.bits() & exponents);
+            };
             mesh.add_triangle({any(), any(), any()}, {any(), any(), any()}, {any(), any(), any()});
         }
         const TestGeometry geometry(std::move(mesh));
