@@ -53,7 +53,8 @@ struct Bins {
 };
 
 float block_leaf_cost(std::uint32_t count) {
-    return static_cast<float>(block_cost) * static_cast<float>((count + 7) / 8) +
+    const std::uint32_t blocks = (count + 7) / 8;
+    return static_cast<float>(block_cost) * static_cast<float>(blocks) +
            static_cast<float>(primitive_cost) * static_cast<float>(count);
 }
 
