@@ -11,7 +11,8 @@ struct Entry {
 };
 
 /// Visits the leaves that a ray can hit, children of a node in any order, until `visit` returns
-/// true. `best_t` may shrink meanwhile.
+/// true. `best_t` may shrink meanwhile; it is padded, since where spatial splits cut a triangle its
+/// t may lie a little before the box of the part that was hit.
 template <class Visit>
 bool visit_leaves(const WideView& tree, const PreparedRay& ray, const float& best_t,
                   Visit&& visit) {
@@ -20,7 +21,7 @@ bool visit_leaves(const WideView& tree, const PreparedRay& ray, const float& bes
     stack[size++] = {WideRef{}, ray.tmin};
     while (size > 0) {
         const Entry entry = stack[--size];
-        if (entry.near > best_t)
+        if (entry.near > best_t * slab_padding)
             continue;
         if (entry.ref.is_leaf()) {
             if (visit(entry.ref))
@@ -30,7 +31,7 @@ bool visit_leaves(const WideView& tree, const PreparedRay& ray, const float& bes
         const auto& node = tree.at<WideNode>(entry.ref);
         for (int i = 0; i < wide_width; ++i) {
             const Interval crossing = slab_interval(ray.slab, node.bounds(i));
-            if (!node.bounds(i).empty() && overlaps(crossing, ray.tmin, best_t))
+            if (!node.bounds(i).empty() && overlaps(crossing, ray.tmin, best_t * slab_padding))
                 stack[size++] = {node.child[i], crossing.near};
         }
     }

@@ -99,7 +99,7 @@ template <class P> struct RayPacket {
         const Floats zero = P::broadcast(0);
         for (int axis = 0; axis < 3; ++axis) {
             const Floats o = P::load(origin[axis]), inv = P::load(inverse[axis]);
-            const Floats near = inv * P::broadcast(1 - 16 * unit_roundoff);
+            const Floats near = inv * P::broadcast(1 - 48 * unit_roundoff);
             const Floats far = inv * P::broadcast(1 + 40 * unit_roundoff);
             const Floats n = o * near, f = o * far;
             P::store(near_inverse[axis], near);
@@ -126,7 +126,7 @@ template <class P> struct PacketHull {
             const float o_low = P::smallest(o), o_high = P::largest(o);
             const float i_low = P::smallest(inv), i_high = P::largest(inv);
             const bool down = (negative >> axis & 1u) != 0;
-            const float near = (down ? i_high : i_low) * (1 - 16 * unit_roundoff);
+            const float near = (down ? i_high : i_low) * (1 - 48 * unit_roundoff);
             const float far = (down ? i_low : i_high) * (1 + 40 * unit_roundoff);
             const float n = (down ? o_low : o_high) * near, f = (down ? o_high : o_low) * far;
             near_inverse[axis] = near;

@@ -5,12 +5,13 @@
 /// are moved nearer and far planes farther by more than that: it enters a few boxes more than
 /// slab_interval and never one less. With u = 2^-24 and inv the rounded 1 / direction:
 ///
-///   near: inverse = inv (1 - 16u), addend = -(origin inverse) - 8u |origin inverse|
+///   near: inverse = inv (1 - 48u), addend = -(origin inverse) - 8u |origin inverse|
 ///   far:  inverse = inv (1 + 40u), addend = -(origin inverse) + 8u |origin inverse|
 ///
 /// slab_interval's own roundings are 2u on a near plane and 3u plus the padding of 32u on a far
 /// one; here the product and the sum round by u each of |plane inverse| <= |distance| + |origin
-/// inverse|. What is left over is positive in all four cases.
+/// inverse|. What is left over is positive in all four cases, by 32u on near planes: where spatial
+/// splits cut a triangle, its t may lie that much before the box of the part that was hit.
 ///
 /// Directions that are almost or exactly parallel to a plane: components below 2^-30 of the
 /// largest are taken as that. It moves the ray sideways by less than 2^-29 of the distance it runs
@@ -87,7 +88,7 @@ struct WideRay {
 
   private:
     void set_coefficients(__m128 o, __m128 inv, __m128 margin) {
-        const __m128 near = _mm_mul_ps(inv, _mm_set1_ps(1 - 16 * unit_roundoff));
+        const __m128 near = _mm_mul_ps(inv, _mm_set1_ps(1 - 48 * unit_roundoff));
         const __m128 far = _mm_mul_ps(inv, _mm_set1_ps(1 + 40 * unit_roundoff));
         const __m128 eight = _mm_set1_ps(8 * unit_roundoff), zero = _mm_setzero_ps();
         const __m128 n = _mm_mul_ps(o, near), f = _mm_mul_ps(o, far);
