@@ -49,11 +49,18 @@ RT_HD inline Interaction interact_sphere(const SceneView& scene, const Hit& hit,
     return it;
 }
 
+/// How far hit points are drawn towards the middle of their triangle, as a share of its size: more
+/// than they are rounded by. A point on the very edge could lie on the wall that meets it there, or
+/// behind it, and a ray from there would leave a closed room.
+inline constexpr float inward_share = 0x1p-21f;
+
 /// A flat triangle's point with barycentrics u, v. `sliver`: the normal is not one, take
 /// sliver_normal.
 RT_HD inline Interaction interact_triangle(const TriangleVertices& t, float u, float v,
                                            bool& sliver) {
-    const Vec3 a = (1 - u - v) * t.a, b = u * t.b, c = v * t.c;
+    const float weight_b = u * (1 - 3 * inward_share) + inward_share;
+    const float weight_c = v * (1 - 3 * inward_share) + inward_share;
+    const Vec3 a = (1 - weight_b - weight_c) * t.a, b = weight_b * t.b, c = weight_c * t.c;
     Interaction it;
     it.position = a + b + c;
     const Vec3 edge1 = t.b - t.a, edge2 = t.c - t.a;

@@ -12,7 +12,7 @@ namespace {
 
 /// How much the slopes of a packet's rays (components over the largest one) may differ: a packet
 /// of rays that spread wider visits more nodes than its rays one by one.
-inline constexpr float packet_max_spread = 0.25f;
+inline constexpr float packet_max_spread = 2.0f;
 
 /// P::width rays, of which the first `count` are there; the rest repeat the first and can hit
 /// nothing.
