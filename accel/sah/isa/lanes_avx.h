@@ -49,6 +49,25 @@ struct Lanes {
     }
 };
 
+/// rows[j][i] = from[i][j]: eight floats from each of eight places.
+inline void transpose8(const float* const* from, __m256* rows) {
+    __m256 pair[8], four[8];
+    for (int i = 0; i < 8; i += 2) {
+        const __m256 a = _mm256_loadu_ps(from[i]), b = _mm256_loadu_ps(from[i + 1]);
+        pair[i] = _mm256_unpacklo_ps(a, b);
+        pair[i + 1] = _mm256_unpackhi_ps(a, b);
+    }
+    for (int i = 0; i < 8; i += 4)
+        for (int k = 0; k < 2; ++k) {
+            four[i + 2 * k] = _mm256_shuffle_ps(pair[i + k], pair[i + 2 + k], 0b01'00'01'00);
+            four[i + 2 * k + 1] = _mm256_shuffle_ps(pair[i + k], pair[i + 2 + k], 0b11'10'11'10);
+        }
+    for (int j = 0; j < 4; ++j) {
+        rows[j] = _mm256_permute2f128_ps(four[j], four[4 + j], 0x20);
+        rows[4 + j] = _mm256_permute2f128_ps(four[j], four[4 + j], 0x31);
+    }
+}
+
 /// One number of eight: `choose` takes the better of two, lane by lane.
 template <class Choose> inline float fold(__m256 x, Choose choose) {
     __m128 four = choose(_mm256_castps256_ps128(x), _mm256_extractf128_ps(x, 1));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "accel/sah/isa/kernels.h"
+#include "accel/sah/isa/packet_stream.h"
 #include "accel/sah/isa/packet_traverse.h"
 #include "accel/sah/wide_careful.h"
 
@@ -48,24 +49,20 @@ template <class V, class P, TriangleTest Test> struct Kernels {
 
     static void closest_stream(const WideView& tree, std::span<const Ray> rays,
                                std::span<Hit> hits) {
-        for_each_packet(
+        trace_stream<P>(
             tree, rays, [&](std::size_t i) { hits[i] = closest(tree, rays[i]); },
-            [&](std::size_t first, std::span<const Ray> part, auto& packet) {
-                PacketTraversal<V, LanesOf<decltype(packet)>, false> traversal(tree, part, packet);
-                traversal.run();
-                for (std::size_t i = 0; i < part.size(); ++i)
-                    hits[first + i] = traversal.hit(i);
+            [&](std::span<const std::uint32_t> of, auto& traversal) {
+                for (std::size_t i = 0; i < of.size(); ++i)
+                    hits[of[i]] = traversal.hit(i);
             });
     }
     static void occluded_stream(const WideView& tree, std::span<const Ray> rays,
                                 std::span<std::uint8_t> found) {
-        for_each_packet(
+        trace_stream<P, true>(
             tree, rays, [&](std::size_t i) { found[i] = occluded(tree, rays[i]) ? 1 : 0; },
-            [&](std::size_t first, std::span<const Ray> part, auto& packet) {
-                PacketTraversal<V, LanesOf<decltype(packet)>, true> traversal(tree, part, packet);
-                traversal.run();
-                for (std::size_t i = 0; i < part.size(); ++i)
-                    found[first + i] = traversal.found(i) ? 1 : 0;
+            [&](std::span<const std::uint32_t> of, auto& traversal) {
+                for (std::size_t i = 0; i < of.size(); ++i)
+                    found[of[i]] = traversal.found(i) ? 1 : 0;
             });
     }
 
@@ -83,29 +80,25 @@ template <class V, class P, TriangleTest Test> struct Kernels {
     }
 
   private:
-    template <class Packet> using LanesOf = typename std::remove_reference_t<Packet>::Lanes;
-
-    /// Hands out rays that run alike as packets, others one by one.
-    template <class One, class Many>
-    static void for_each_packet(const WideView& tree, std::span<const Ray> rays, One&& one,
-                                Many&& many) {
-        std::size_t begin = 0;
+    /// As packets where there are any, else one by one. `one(i)` traces a ray; `take(indices,
+    /// traversal)` takes the results of a packet.
+    template <class Lanes, bool AnyHit = false, class One, class Take>
+    static void trace_stream(const WideView& tree, std::span<const Ray> rays, One&& one,
+                             Take&& take) {
         if constexpr (has_packets) {
-            while (begin < rays.size() && !tree.empty) {
-                const std::size_t count = std::min<std::size_t>(P::width, rays.size() - begin);
-                if (count < P::width / 2)
-                    break;
-                RayPacket<P> packet(rays.subspan(begin, count), tree.reach);
-                if (packet.alike)
-                    many(begin, rays.subspan(begin, count), packet);
-                else
-                    for (std::size_t i = begin; i < begin + count; ++i)
-                        one(i);
-                begin += count;
-            }
+            if (!tree.empty)
+                return PacketStream<Lanes>(rays, tree.reach)
+                    .for_each(
+                        [&](std::span<const std::uint32_t> indices,
+                            std::span<const Ray* const> part, RayPacket<Lanes>& packet) {
+                            PacketTraversal<V, Lanes, AnyHit> traversal(tree, part, packet);
+                            traversal.run();
+                            take(indices, traversal);
+                        },
+                        one);
         }
-        for (; begin < rays.size(); ++begin)
-            one(begin);
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            one(i);
     }
 };
 

@@ -11,6 +11,8 @@ struct PacketLanes {
     using Mask = unsigned; ///< a bit a lane
     static constexpr int width = 8;
 
+    /// rows[j] lane i = from[i][j].
+    static void transpose(const float* const* from, Floats* rows) { transpose8(from, rows); }
     static Floats load(const float* p) { return _mm256_load_ps(p); }
     static void store(float* p, Floats x) { _mm256_store_ps(p, x); }
     static Floats broadcast(float x) { return _mm256_set1_ps(x); }

@@ -11,6 +11,14 @@ struct PacketLanes {
     using Mask = __mmask16;
     static constexpr int width = 16;
 
+    /// rows[j] lane i = from[i][j].
+    static void transpose(const float* const* from, Floats* rows) {
+        __m256 low[8], high[8];
+        transpose8(from, low);
+        transpose8(from + 8, high);
+        for (int j = 0; j < 8; ++j)
+            rows[j] = _mm512_insertf32x8(_mm512_castps256_ps512(low[j]), high[j], 1);
+    }
     static Floats load(const float* p) { return _mm512_load_ps(p); }
     static void store(float* p, Floats x) { _mm512_store_ps(p, x); }
     static Floats broadcast(float x) { return _mm512_set1_ps(x); }

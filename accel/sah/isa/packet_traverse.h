@@ -47,7 +47,7 @@ template <class P>
 /// One packet on its way. `AnyHit`: rays leave it at their first hit.
 template <class V, class P, bool AnyHit> class PacketTraversal {
   public:
-    PacketTraversal(const WideView& tree, std::span<const Ray> rays, RayPacket<P>& packet)
+    PacketTraversal(const WideView& tree, std::span<const Ray* const> rays, RayPacket<P>& packet)
         : tree_(tree), rays_(rays), packet_(packet), test_(PacketHull<P>(packet)) {
         for (PrimitiveNumber& number : number_)
             number = invalid_id;
@@ -138,7 +138,7 @@ template <class V, class P, bool AnyHit> class PacketTraversal {
     void visit_exactly(std::size_t i, const WideTriangles& block, std::size_t lane) {
         const auto corner = [&](int k) { return block.corner(k, static_cast<int>(lane)); };
         PrimitiveHit hit;
-        if (!intersect_triangle(PreparedRay(rays_[i]), corner(0), corner(1), corner(2),
+        if (!intersect_triangle(PreparedRay(*rays_[i]), corner(0), corner(1), corner(2),
                                 packet_.best_t[i], hit))
             return;
         NumberedHit closer = best(i);
@@ -184,13 +184,13 @@ template <class V, class P, bool AnyHit> class PacketTraversal {
     WideRay& alone(std::size_t i) {
         auto* ray = reinterpret_cast<WideRay*>(alone_[i]);
         if ((made_ >> i & 1u) == 0)
-            ray = new (alone_[i]) WideRay(rays_[i], tree_.reach);
+            ray = new (alone_[i]) WideRay(*rays_[i], tree_.reach);
         made_ |= 1u << i;
         return *ray;
     }
 
     const WideView& tree_;
-    std::span<const Ray> rays_;
+    std::span<const Ray* const> rays_;
     RayPacket<P>& packet_;
     NodeTest<V> test_;
     float farthest_; ///< best t of the ray that has it farthest

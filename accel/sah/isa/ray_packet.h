@@ -10,12 +10,12 @@
 namespace plumb {
 namespace {
 
-/// How much the slopes of a packet's rays (components over the largest one) may differ: a packet
-/// of rays that spread wider visits more nodes than its rays one by one.
-inline constexpr float packet_max_spread = 2.0f;
+/// How far apart a packet's rays may be: in the slope (components over the largest one), and in the
+/// origin, as a share of the scene. A packet that spreads wider visits more nodes than its rays
+/// one by one.
+inline constexpr float packet_max_slope = 1, packet_max_origin = 0.125f;
 
-/// P::width rays, of which the first `count` are there; the rest repeat the first and can hit
-/// nothing.
+/// Up to P::width rays. Where there are fewer, the rest repeat the first and can hit nothing.
 template <class P> struct RayPacket {
     using Lanes = P;
     static constexpr std::size_t width = P::width;
@@ -29,76 +29,87 @@ template <class P> struct RayPacket {
     unsigned negative;
     bool alike; ///< only then does the rest hold
 
-    /// Between 1 and width rays.
-    RayPacket(std::span<const Ray> rays, float reach) : alike(false) {
-        Row direction[3];
-        for (std::size_t i = 0; i < width; ++i) {
-            const bool there = i < rays.size();
-            const Ray& ray = rays[there ? i : 0];
-            if (there && !WideRay::is_ordinary(ray, reach))
-                return;
-            for (int axis = 0; axis < 3; ++axis) {
-                origin[axis][i] = (&ray.origin.x)[axis];
-                direction[axis][i] = (&ray.direction.x)[axis];
-            }
-            tmin[i] = ray.tmin + 0.0f; // no -0
-            best_t[i] = there ? ray.tmax : -1;
-        }
-        const Vec3 first = rays[0].direction, length = abs(first);
+    /// At least one ray.
+    RayPacket(std::span<const Ray* const> rays, float reach) {
+        const float* start[width];
+        for (std::size_t i = 0; i < width; ++i)
+            start[i] = &rays[i < rays.size() ? i : 0]->origin.x;
+        Floats rows[8]; // origin, tmin, direction, tmax: the members of Ray
+        P::transpose(start, rows);
+        const Vec3 first = rays[0]->direction, length = abs(first);
         kz = length.x > length.y ? (length.x > length.z ? 0 : 2) : (length.y > length.z ? 1 : 2);
         kx = kz == 2 ? 0 : kz + 1;
         ky = kx == 2 ? 0 : kx + 1;
         negative = 0;
         for (unsigned axis = 0; axis < 3; ++axis)
             negative |= (std::signbit((&first.x)[axis]) ? 1u : 0u) << axis;
-        alike = run_alike(direction);
-        if (alike)
-            set_coefficients();
+        alike = run_alike(rows, rows + 4, reach) && are_ordinary(rows, reach);
+        if (!alike)
+            return;
+        P::store(tmin, rows[3] + P::broadcast(0)); // no -0
+        P::store(best_t, P::broadcast(-1));
+        P::store_where(best_t, P::mask((1u << rays.size()) - 1), rows[7]);
+        for (int axis = 0; axis < 3; ++axis)
+            P::store(origin[axis], rows[axis]);
+        set_coefficients(rows, inverse_rows_);
     }
 
   private:
     using Floats = typename P::Floats;
+    static constexpr unsigned all = (1u << width) - 1;
+
+    Floats inverse_rows_[3];
 
     /// Fills in inverse and shear. Whether all rays have the signs and the largest axis of the
-    /// first, similar slopes, and no component next to nothing.
-    bool run_alike(const Row (&direction)[3]) {
-        const Floats largest = load(direction[kz]), length = P::absolute(largest);
+    /// first, are near each other, and have no component next to nothing.
+    bool run_alike(const Floats* o, const Floats* d, float reach) {
+        const Floats longest = d[kz], length = P::absolute(longest);
         const Floats smallest = length * P::broadcast(0x1p-30f);
-        const unsigned all = (1u << width) - 1;
         unsigned good = all;
         for (int axis = 0; axis < 3; ++axis) {
-            const Floats d = load(direction[axis]);
-            P::store(inverse[axis], P::broadcast(1) / d);
-            P::store(shear[axis], d / largest);
-            good &= ~P::bits(P::signs_differ(d, P::broadcast(direction[axis][0])));
-            good &= P::bits(P::not_greater(smallest, P::absolute(d)));
-        }
-        // PreparedRay takes kz = 2 where z is as long as another, and 1 before 0.
-        for (int axis = 0; axis < 3; ++axis) {
-            const Floats other = P::absolute(load(direction[axis]));
+            const Floats other = P::absolute(d[axis]);
+            good &= ~P::bits(P::signs_differ(
+                d[axis], P::broadcast((negative >> axis & 1u) != 0 ? -1.0f : 1.0f)));
+            good &= P::bits(P::not_greater(smallest, other));
+            // PreparedRay takes kz = 2 where z is as long as another, and 1 before 0.
             if (axis != kz)
                 good &= P::bits(kz > axis ? P::not_greater(other, length) : P::less(other, length));
         }
-        return (good & all) == all && spread(shear[kx]) < packet_max_spread &&
-               spread(shear[ky]) < packet_max_spread;
+        if ((good & all) != all)
+            return false;
+        float apart = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            inverse_rows_[axis] = P::broadcast(1) / d[axis];
+            const Floats slope = d[axis] / longest;
+            P::store(inverse[axis], inverse_rows_[axis]);
+            P::store(shear[axis], slope);
+            apart = max(apart, max(spread(slope) * (1 / packet_max_slope),
+                                   spread(o[axis]) * (1 / packet_max_origin) / reach));
+        }
+        return apart < 1;
     }
 
-    static Floats load(const Row& row) {
-        alignas(64) Row aligned;
-        std::copy(std::begin(row), std::end(row), std::begin(aligned));
-        return P::load(aligned);
+    /// WideRay::is_ordinary of each.
+    bool are_ordinary(const Floats* rows, float reach) const {
+        const Floats limit = P::broadcast(wide_max_coordinate);
+        const Floats length = P::absolute(rows[4 + kz]);
+        unsigned good = all & P::bits(P::not_greater(P::broadcast(wide_min_direction), length)) &
+                        P::bits(P::not_greater(length, P::broadcast(wide_max_direction))) &
+                        P::bits(P::not_greater(P::broadcast(0), rows[3])) &
+                        P::bits(P::not_greater(rows[3], rows[7]));
+        for (int i = 0; i < 4; ++i)
+            good &= P::bits(P::not_greater(P::absolute(rows[i]), limit));
+        return good == all && reach <= wide_max_coordinate;
     }
-    static float spread(const Row& row) {
-        const Floats x = P::load(row);
-        return P::largest(x) - P::smallest(x);
-    }
+
+    static float spread(Floats x) { return P::largest(x) - P::smallest(x); }
 
     /// As WideRay::set_coefficients.
-    void set_coefficients() {
+    void set_coefficients(const Floats* o_rows, const Floats* inv_rows) {
         const Floats margin = P::broadcast(1e-36f), eight = P::broadcast(8 * unit_roundoff);
         const Floats zero = P::broadcast(0);
         for (int axis = 0; axis < 3; ++axis) {
-            const Floats o = P::load(origin[axis]), inv = P::load(inverse[axis]);
+            const Floats o = o_rows[axis], inv = inv_rows[axis];
             const Floats near = inv * P::broadcast(1 - 48 * unit_roundoff);
             const Floats far = inv * P::broadcast(1 + 40 * unit_roundoff);
             const Floats n = o * near, f = o * far;
