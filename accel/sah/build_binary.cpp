@@ -165,7 +165,8 @@ BinaryBvh build_binary(const GeometryView& geometry, const BinaryBuildOptions& o
     const std::size_t count = refs.all.size();
     BinaryBvh tree;
     if (count > 0) {
-        const BuildContext context{area_scale(refs.all.bounds), numbers.first_sphere()};
+        const BuildContext context{area_scale(refs.all.bounds), numbers.first_sphere(),
+                                   traversal_cost_of(count)};
         const SpatialSplitter splitter(geometry, numbers, context.area_scale, workers);
         TreePiece root(refs.all.bounds.bounds(), count);
         const RoomyRange all{refs.all, is_ordinary(refs.all.bounds) ? room : 0};

@@ -83,7 +83,7 @@ class SmallRange {
     bool split_pays(std::size_t node, std::uint32_t begin, std::uint32_t end, int depth) {
         const ListSplit best = best_split(begin, end);
         const float area = union_of(begin, end).half_area(context_.area_scale);
-        if (static_cast<float>(traversal_cost) * area + best.cost >= cost_of[end - begin] * area)
+        if (context_.traversal_cost * area + best.cost >= cost_of[end - begin] * area)
             return false;
         split(node, begin, end, set_of(best.axis, begin, begin + best.left_count), depth);
         return true;

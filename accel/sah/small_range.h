@@ -12,6 +12,7 @@ inline constexpr std::size_t small_range_size = 64;
 struct BuildContext {
     Float4 area_scale;            ///< see best_binned_split
     PrimitiveNumber first_sphere; ///< lower numbers are triangles
+    float traversal_cost;         ///< see traversal_cost_of
 };
 
 /// Appends the subtree of 1 to small_range_size primitives whose root is an existing node of the
