@@ -33,7 +33,8 @@ bool is_traceable(const GeometryView& view, std::uint32_t geometry, std::uint32_
         return is_finite(s.center) && s.radius > 0 && s.radius <= max_coordinate;
     }
     const TriangleVertices t = view.vertices(geometry, primitive);
-    return is_finite(t.a) && is_finite(t.b) && is_finite(t.c);
+    return is_finite(t.a) && is_finite(t.b) && is_finite(t.c) && t.a != t.b && t.b != t.c &&
+           t.c != t.a;
 }
 
 double primitive_area(const GeometryView& view, std::uint32_t geometry, std::uint32_t primitive) {

@@ -53,7 +53,8 @@ struct SurfacePoint {
 };
 
 /// Whether a primitive takes part in intersection: coordinates finite and at most 1.8e18, radius
-/// > 0. Degenerate triangles take part (see intersect_triangle).
+/// > 0, no two vertices equal (such a triangle is never hit: its edge functions cancel). Other
+/// degenerate triangles take part (see intersect_triangle).
 [[nodiscard]] bool is_traceable(const GeometryView&, std::uint32_t geometry,
                                 std::uint32_t primitive);
 

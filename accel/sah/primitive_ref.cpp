@@ -31,6 +31,10 @@ bool is_finite(Float4 a, Float4 b, Float4 c) {
     return (less(abs(a), limit) & less(abs(b), limit) & less(abs(c), limit)) == 15;
 }
 
+bool differ(Float4 a, Float4 b) {
+    return ((float4::less(a, b) | float4::less(b, a)) & 7) != 0;
+}
+
 /// Appends the traceable primitives of a range of numbers.
 class Appender {
   public:
@@ -43,7 +47,7 @@ class Appender {
             const Float4 a = float4::load(mesh.positions[t.a]);
             const Float4 b = float4::load(mesh.positions[t.b]);
             const Float4 c = float4::load(mesh.positions[t.c]);
-            if (is_finite(a, b, c))
+            if (is_finite(a, b, c) && differ(a, b) && differ(b, c) && differ(c, a))
                 add(triangle_box(a, b, c), number);
         }
     }

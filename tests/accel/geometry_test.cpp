@@ -105,22 +105,25 @@ TEST(Geometry, SamplesAtTheCornersOfTheUnitSquareAreFinite) {
         }
 }
 
-TEST(Geometry, TraceableMeansFiniteAndBelowTheLimit) {
+TEST(Geometry, TraceableMeansFiniteBelowTheLimitAndNoTwoVerticesEqual) {
     TestGeometry scene;
     Mesh mesh;
     mesh.add_triangle({0, 0, 0}, {max_coordinate, 0, 0}, {0, -max_coordinate, 0});
     mesh.add_triangle({0, 0, 0}, {std::nextafter(max_coordinate, infinity), 0, 0}, {0, 1, 0});
     mesh.add_triangle({0, 0, 0}, {0, std::nanf(""), 0}, {0, 1, 0});
     mesh.add_triangle({0, 0, -infinity}, {1, 0, 0}, {0, 1, 0});
-    mesh.add_triangle({0, 0, 0}, {0, 0, 0}, {0, 0, 0}); // degenerate is not untraceable
+    mesh.add_triangle({0, 0, 0}, {1, 1, 1}, {2, 2, 2});     // collinear is not untraceable
+    mesh.add_triangle({0, 0, 0}, {1, 0, 0}, {0, -0.0f, 0}); // two equal vertices are
+    mesh.add_triangle({0, 0, 0}, {0, 0, 0}, {0, 1, 0});
+    mesh.add_triangle({0, 1, 0}, {1, 0, 0}, {1, 0, 0});
     scene.add(std::move(mesh));
     for (const float radius : {1.0f, 0.0f, -1.0f, std::nanf(""), infinity})
         scene.add(Sphere{{0, 0, 0}, radius});
     scene.add(Sphere{{infinity, 0, 0}, 1});
     const GeometryView view = scene.view();
-    const bool triangles[]{true, false, false, false, true};
+    const bool triangles[]{true, false, false, false, true, false, false, false};
     const bool spheres[]{true, false, false, false, false, false};
-    for (std::uint32_t i = 0; i < 5; ++i)
+    for (std::uint32_t i = 0; i < 8; ++i)
         EXPECT_EQ(is_traceable(view, 0, i), triangles[i]) << i;
     for (std::uint32_t i = 0; i < 6; ++i)
         EXPECT_EQ(is_traceable(view, 1, i), spheres[i]) << i;

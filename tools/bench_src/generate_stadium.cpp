@@ -20,7 +20,7 @@ void add_stadium(BenchMesh& mesh, double detail) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (std::uint32_t row = 0; row < 2 * tiers; ++row) {
         const float out = 1 + 0.6f * fraction((row + 1) / 2, tiers);
-        const float height = 30 * fraction(row / 2 + row % 2, tiers);
+        const float height = 30 * fraction(row / 2, tiers);
         for (std::uint32_t i = 0; i < columns; ++i) {
             const Vec2 p = polar(out, fraction(i, columns));
             mesh.add_vertex({100 * p.x, height, 70 * p.y});
