@@ -32,14 +32,30 @@ RT_HD inline Bounds triangle_bounds(Vec3 a, Vec3 b, Vec3 c) {
 }
 
 /// How far from a triangle's plane the tests below may still find a ray's origin in front of it:
-/// `edge1` and `edge2` span the triangle. The shear rounds 4 u of the distance to each vertex, and
-/// in slivers that error grows by length / height (followed up to 16). Rays that leave a surface
-/// must start farther off than this, or they hit it again: on a wall of size 2 that passes through
-/// y = 0 the bound of the hit point alone is 1e-14, the error of t 1e-7.
-RT_HD inline float plane_slack(Vec3 edge1, Vec3 edge2, float cross_length) {
+/// `edge1` and `edge2` span the triangle, `cross_length` is their cross product's. Rays that leave
+/// a surface must start farther off than this, or they hit it again: on a wall of size 2 that
+/// passes through y = 0 the bound of the hit point alone is 1e-14, the error of t 1e-7.
+///
+/// The shear rounds 4 u of the distance to each vertex. The edge functions are weights of the
+/// vertices' depths and round u of the product of two distances to the ray, which takes depth by a
+/// share of that over the area: for a triangle of longest edge L at most 1 u L^3 / cross_length,
+/// whatever the ray. The normal, and so the side on which a direction lies, rounds by as much
+/// again. In slivers this is all that counts; it is followed up to L^2 / cross_length = 2^16.
+///
+/// t is moved into the box of the vertices, so an origin outside that box and ahead of it cannot be
+/// in front of the plane either: thin triangles along an axis need no more than their thickness.
+RT_HD inline float plane_slack(Vec3 edge1, Vec3 edge2, Vec3 normal, float cross_length) {
     const float size = max_component(abs(edge1)) + max_component(abs(edge2));
     const float stretch = size * size / (4 * cross_length); // 1 for a right angle of equal sides
-    return 8 * unit_roundoff * size * clamp(stretch, 1, 16);
+    const float slack = 8 * unit_roundoff * size * clamp(stretch, 1, 16);
+    const Vec3 edge3 = edge2 - edge1;
+    const float longest2 = max(dot(edge1, edge1), max(dot(edge2, edge2), dot(edge3, edge3)));
+    const float aspect = min(longest2 / cross_length, 0x1p16f);
+    const float sliver = 2 * unit_roundoff * std::sqrt(longest2) * aspect;
+    const Vec3 n = abs(normal), extent = abs(edge1) + abs(edge2) + Vec3{slack, slack, slack};
+    // NaN where the normal is: min takes its second argument then.
+    const float box = min(extent.x / n.x, min(extent.y / n.y, extent.z / n.z));
+    return aspect > 16 ? max(slack, min(box, sliver)) : slack;
 }
 
 namespace detail {

@@ -59,7 +59,7 @@ RT_HD inline SphericalRectangle spherical_rectangle(const Light& light, Vec3 pos
 
 /// How far off its plane a ray to a flat light must end, beside the rounding of the point.
 RT_HD inline float slack_of(const Light& light) {
-    return plane_slack(light.edge1, light.edge2, 2 * light.area);
+    return plane_slack(light.edge1, light.edge2, light.normal, 2 * light.area);
 }
 
 /// Fills in a sample at origin + s edge1 + t edge2, chosen uniformly over `solid_angle`, or over

@@ -66,9 +66,9 @@ RT_HD inline Interaction interact_triangle(const TriangleVertices& t, float u, f
     const Vec3 edge1 = t.b - t.a, edge2 = t.c - t.a;
     const Vec3 n = cross(edge1, edge2);
     const float length2 = dot(n, n), cross_length = std::sqrt(length2);
-    const float slack = plane_slack(edge1, edge2, cross_length);
-    it.error = rounding_bound(7) * (abs(a) + abs(b) + abs(c)) + Vec3{slack, slack, slack};
     it.geometric = n / cross_length;
+    const float slack = plane_slack(edge1, edge2, it.geometric, cross_length);
+    it.error = rounding_bound(7) * (abs(a) + abs(b) + abs(c)) + Vec3{slack, slack, slack};
     it.shading = it.geometric;
     sliver = !(length2 > 1e-30f && length2 < infinity);
     return it;
