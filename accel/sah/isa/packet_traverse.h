@@ -136,10 +136,9 @@ template <class V, class P, bool AnyHit> class PacketTraversal {
     }
 
     void visit_exactly(std::size_t i, const WideTriangles& block, std::size_t lane) {
-        const auto corner = [&](int k) { return block.corner(k, static_cast<int>(lane)); };
         PrimitiveHit hit;
-        if (!intersect_triangle(PreparedRay(*rays_[i]), corner(0), corner(1), corner(2),
-                                packet_.best_t[i], hit))
+        if (!intersect_exactly<TriangleTest::watertight>(
+                PreparedRay(*rays_[i]), block, static_cast<int>(lane), packet_.best_t[i], hit))
             return;
         NumberedHit closer = best(i);
         closer.keep_closer(hit, block.number[lane]);

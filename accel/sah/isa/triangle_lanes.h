@@ -145,6 +145,16 @@ template <class V>
     V::store(hits.v, v);
 }
 
+/// intersect_triangle, compiled into this file alone: of a shared instance the linker could take
+/// the one of another instruction set.
+template <TriangleTest Test>
+[[gnu::flatten, gnu::noinline]] bool intersect_exactly(const PreparedRay& ray,
+                                                       const WideTriangles& block, int lane,
+                                                       float tmax, PrimitiveHit& hit) {
+    return intersect_triangle<Test>(ray, block.corner(0, lane), block.corner(1, lane),
+                                    block.corner(2, lane), tmax, hit);
+}
+
 /// Calls visit(lane, hit) for each triangle of a block that is hit with tmin < t <= tmax, until it
 /// returns true. Returns whether it did.
 template <class V, TriangleTest Test, class Visit>
@@ -162,9 +172,8 @@ template <class V, TriangleTest Test, class Visit>
     }
     for (unsigned rest = hits.exact; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-        const auto corner = [&](int i) { return block.corner(i, static_cast<int>(lane)); };
         PrimitiveHit hit;
-        if (intersect_triangle<Test>(ray.prepared(), corner(0), corner(1), corner(2), tmax, hit) &&
+        if (intersect_exactly<Test>(ray.prepared(), block, static_cast<int>(lane), tmax, hit) &&
             visit(lane, hit))
             return true;
     }
