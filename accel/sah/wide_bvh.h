@@ -32,6 +32,7 @@ struct WideRef {
 struct alignas(64) WideNode {
     float planes[3][2][wide_width]; ///< [axis][lower, upper][child]
     WideRef child[wide_width];
+    std::uint32_t rest[8]{}; ///< zeros, or the same tree would not be the same bytes
 
     [[nodiscard]] Bounds bounds(int i) const {
         return {{planes[0][0][i], planes[1][0][i], planes[2][0][i]},
@@ -56,7 +57,9 @@ static_assert(sizeof(WideTriangles) == 320);
 struct alignas(64) WideSpheres {
     Sphere sphere[wide_width];
     PrimitiveNumber number[wide_width];
+    std::uint32_t rest[8]{}; ///< as in WideNode
 };
+static_assert(sizeof(WideSpheres) == 192);
 
 /// What a traversal reads. Valid as long as its WideBvh.
 struct WideView {
