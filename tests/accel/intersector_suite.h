@@ -19,26 +19,31 @@ namespace plumb::test {
 
 struct Config {
     AccelKind kind;
-    TriangleTest test;
+    TriangleTest test = TriangleTest::watertight;
+    Isa isa = Isa::automatic;
+    BuildQuality quality = BuildQuality::medium;
 };
 
 inline std::string name_of(const Config& c) {
-    return std::string(plumb::name_of(c.kind)) +
-           (c.test == TriangleTest::watertight ? "" : "MoellerTrumbore");
+    std::string name(plumb::name_of(c.kind));
+    if (c.isa != Isa::automatic)
+        name += "_" + std::string(plumb::name_of(c.isa));
+    if (c.quality != BuildQuality::medium)
+        name += "_" + std::string(plumb::name_of(c.quality));
+    return name + (c.test == TriangleTest::watertight ? "" : "MoellerTrumbore");
 }
 inline void PrintTo(const Config& c, std::ostream* out) { *out << name_of(c); }
 
-inline constexpr Config naive_config{AccelKind::naive, TriangleTest::watertight};
-inline constexpr Config sah_config{AccelKind::sah, TriangleTest::watertight};
-inline constexpr Config embree_config{AccelKind::embree, TriangleTest::watertight};
-inline constexpr Config naive_moeller{AccelKind::naive, TriangleTest::moeller_trumbore};
-inline constexpr Config sah_moeller{AccelKind::sah, TriangleTest::moeller_trumbore};
+inline constexpr Config naive_config{AccelKind::naive};
+inline constexpr Config sah_config{AccelKind::sah};
+inline constexpr Config embree_config{AccelKind::embree};
 
 /// A test body runs once for each of these; the name of the test ends in the name of the config.
 class IntersectorTest : public testing::TestWithParam<Config> {
   protected:
     [[nodiscard]] static std::unique_ptr<Intersector> build(const GeometryView& view) {
-        return make_intersector(GetParam().kind, view, {GetParam().test});
+        const Config& c = GetParam();
+        return make_intersector(c.kind, view, {c.test, c.quality, c.isa});
     }
 };
 
@@ -46,15 +51,56 @@ inline std::string config_name(const testing::TestParamInfo<Config>& info) {
     return name_of(info.param);
 }
 
-inline auto every_config() {
-    return testing::Values(naive_config, naive_moeller, sah_config, sah_moeller, embree_config);
+/// The instruction sets that this processor has, and `automatic`.
+inline std::vector<Isa> isas_here() {
+    std::vector<Isa> isas{Isa::automatic};
+    for (const Isa isa : {Isa::portable, Isa::avx2, Isa::avx512}) {
+        try {
+            (void)make_intersector(AccelKind::sah, GeometryView{},
+                                   {TriangleTest::watertight, BuildQuality::medium, isa});
+            isas.push_back(isa);
+        } catch (const std::runtime_error&) {
+            continue; // a processor without it
+        }
+    }
+    return isas;
 }
+
+/// sah in every instruction set, and in the other qualities.
+inline std::vector<Config> sah_configs(TriangleTest test) {
+    std::vector<Config> configs;
+    for (const Isa isa : isas_here())
+        configs.push_back({AccelKind::sah, test, isa});
+    for (const BuildQuality quality : {BuildQuality::fast, BuildQuality::high})
+        configs.push_back({AccelKind::sah, test, Isa::automatic, quality});
+    configs.push_back({AccelKind::sah, test, Isa::portable, BuildQuality::high});
+    return configs;
+}
+
 /// Without Embree.
-inline auto own_configs() {
-    return testing::Values(naive_config, naive_moeller, sah_config, sah_moeller);
+inline std::vector<Config> own_config_list(bool moeller_trumbore) {
+    std::vector<Config> configs{naive_config};
+    const auto append = [&](const std::vector<Config>& more) {
+        configs.insert(configs.end(), more.begin(), more.end());
+    };
+    append(sah_configs(TriangleTest::watertight));
+    if (moeller_trumbore) {
+        configs.push_back({AccelKind::naive, TriangleTest::moeller_trumbore});
+        append(sah_configs(TriangleTest::moeller_trumbore));
+    }
+    return configs;
+}
+
+inline auto own_configs() { return testing::ValuesIn(own_config_list(true)); }
+inline auto every_config() {
+    std::vector<Config> configs = own_config_list(true);
+    configs.push_back(embree_config);
+    return testing::ValuesIn(configs);
 }
 inline auto watertight_configs() {
-    return testing::Values(naive_config, sah_config, embree_config);
+    std::vector<Config> configs = own_config_list(false);
+    configs.push_back(embree_config);
+    return testing::ValuesIn(configs);
 }
 
 inline bool same_bits(const Hit& a, const Hit& b) {
