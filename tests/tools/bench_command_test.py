@@ -86,6 +86,9 @@ class BenchCommand(unittest.TestCase):
             (["--repetitions", "0"], "--repetitions"),
             (["--seconds", "x"], "--seconds"),
             (["stray"], "stray"),
+            (["--validate", "sah"], "--validate"),
+            (["--validate-rays", "5"], "needs --validate"),
+            (["--validate", "naive", "--json", "x"], "excludes"),
         ]:
             done = run(*arguments)
             self.assertEqual(done.returncode, 2, arguments)
@@ -96,6 +99,28 @@ class BenchCommand(unittest.TestCase):
         self.assertEqual(run("--mesh", "missing.ply").returncode, 4)
         self.assertEqual(run("--mesh", __file__).returncode, 4)
         self.assertEqual(run("--quick", "--json", "/missing/bench.json").returncode, 5)
+
+    def test_validation_finds_nothing_unexplained(self):
+        for arguments, equal in [(["naive", "--build-quality", "high"], True), (["embree"], False)]:
+            done = run("-q", "--quick", "--validate", *arguments)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            lines = done.stdout.splitlines()
+            self.assertEqual(lines[-1], "unexplained: 0")
+            for line in lines[1:-1]:
+                self.assertEqual(line.split()[1], "100000")
+                if equal:
+                    self.assertEqual(line.split()[2], "100000", line)
+        self.assertEqual(len(lines), 10)  # a head, eight meshes, the sum
+
+    def test_a_replay_is_traced_or_refused_with_its_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "bad.replay")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write("garbage\n")
+            done = run("--replay", path)
+            self.assertEqual(done.returncode, 4)
+            self.assertIn(f"{path}: error: line 1", done.stderr)
+        self.assertEqual(run("--replay", "missing.replay").returncode, 4)
 
     def test_help_and_list_name_what_can_be_chosen(self):
         self.assertIn("--configs", run("--help").stdout)

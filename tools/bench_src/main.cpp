@@ -1,5 +1,7 @@
 /// \file  plumb_bench: Plumbline's trees and Embree on the same rays, timed and checked.
 #include "accel/embree/embree_scene.h"
+#include "accel/validate/run_replay.h"
+#include "renderer/io/input_file.h"
 #include "renderer/io/write_file.h"
 #include "renderer/scene/error.h"
 #include "tools/bench_src/cpu.h"
@@ -10,6 +12,7 @@
 #include <cstdio>
 #include <exception>
 #include <fmt/format.h>
+#include <iostream>
 #include <new>
 
 namespace plumb::bench {
@@ -48,25 +51,56 @@ MeshResult measure_mesh(const BenchMesh& mesh, const Options& options) {
     return measure(mesh, measured, progress);
 }
 
-int run(const Options& options) {
-    if (!options.json.empty())
-        check_writable(options.json);
-    const RunInfo info = info_of(options);
-    print(head_text(info));
-    std::vector<MeshResult> results;
-    const auto add = [&](const BenchMesh& mesh) {
-        results.push_back(measure_mesh(mesh, options));
-        print(mesh_text(results.back()));
-    };
+/// The meshes that were asked for, one after the other.
+template <class Use> void for_each_mesh(const Options& options, Use&& use) {
     for (const CatalogueEntry* entry : options.meshes)
-        add(generate(*entry, options.quick));
+        use(generate(*entry, options.quick));
     for (const std::filesystem::path& file : options.files) {
         std::vector<std::string> warnings;
         const BenchMesh mesh = load_mesh(file, warnings);
         for (const std::string& warning : warnings)
             fmt::print(stderr, "{}\n", warning);
-        add(mesh);
+        use(mesh);
     }
+}
+
+/// Traces a replay file's rays. Exit code 1 if anything is unexplained.
+int replay(const std::filesystem::path& file) {
+    try {
+        const Replay rays = parse_replay(read_file(file, ErrorKind::mesh));
+        return run_replay(rays, std::cout).unexplained > 0 ? 1 : 0;
+    } catch (const ReplayError& error) {
+        throw SceneError(ErrorKind::mesh, {file.string()}, error.what());
+    }
+}
+
+int validate(const Options& options) {
+    std::uint64_t unexplained = 0;
+    print(validation_head());
+    for_each_mesh(options, [&](const BenchMesh& mesh) {
+        Progress progress(options.quiet);
+        const ValidationReport report = validate_mesh(mesh, *options.validate, progress);
+        unexplained += report.unexplained_count();
+        print(validation_line(mesh.name, report));
+    });
+    print(fmt::format("unexplained: {}\n", unexplained));
+    return unexplained > 0 ? 1 : 0;
+}
+
+int run(const Options& options) {
+    if (!options.replay.empty())
+        return replay(options.replay);
+    if (options.validate)
+        return validate(options);
+    if (!options.json.empty())
+        check_writable(options.json);
+    const RunInfo info = info_of(options);
+    print(head_text(info));
+    std::vector<MeshResult> results;
+    for_each_mesh(options, [&](const BenchMesh& mesh) {
+        results.push_back(measure_mesh(mesh, options));
+        print(mesh_text(results.back()));
+    });
     print(summary_text(summary_of(results)));
     if (!options.json.empty())
         atomic_write(options.json, to_json(info, results));

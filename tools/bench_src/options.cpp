@@ -34,6 +34,8 @@ constexpr const char* list_text = "Generated meshes (--meshes), * for several:\n
 struct Raw {
     std::vector<std::string> meshes, configs, rays;
     bool list = false;
+    std::string validate, quality;
+    double validate_rays = 0; ///< 0: not given
 };
 
 template <class Range, class Name>
@@ -92,6 +94,25 @@ void look_up(const Raw& raw, Options& options) {
            [&](std::size_t i) { options.measure.kinds.push_back(ray_kinds[i]); });
 }
 
+void look_up_validation(const Raw& raw, Options& options) {
+    if (raw.validate.empty()) {
+        if (raw.validate_rays > 0 || !raw.quality.empty())
+            throw CLI::ValidationError(
+                raw.validate_rays > 0 ? "--validate-rays" : "--build-quality", "needs --validate");
+        return;
+    }
+    if (!options.json.empty() || !raw.configs.empty() || !raw.rays.empty())
+        throw CLI::ValidationError("--validate", "excludes --json, --configs and --rays");
+    ValidateOptions& validate = options.validate.emplace();
+    validate.other = raw.validate == "naive" ? AccelKind::naive : AccelKind::embree;
+    for (const BuildQuality quality :
+         {BuildQuality::fast, BuildQuality::medium, BuildQuality::high})
+        if (raw.quality == name_of(quality))
+            validate.sah.quality = quality;
+    const double rays = raw.validate_rays > 0 ? raw.validate_rays : options.quick ? 1e5 : 1.25e7;
+    validate.rays = static_cast<std::size_t>(rays);
+}
+
 void print_list(int threads) {
     std::string out = list_text;
     for (const CatalogueEntry& entry : catalogue())
@@ -119,6 +140,21 @@ void add_selection(CLI::App& app, Options& options, Raw& raw) {
                    "medium and high at the best instruction set, naive up to 400,000 triangles]")
         ->delimiter(',')
         ->type_name("NAME,...");
+    app.add_option("--validate", raw.validate,
+                   "Compare every ray of sah with this structure and classify what differs,\n"
+                   "instead of timing; exit code 1 if anything is unexplained")
+        ->check(CLI::IsMember({"naive", "embree"}))
+        ->type_name("naive|embree");
+    app.add_option("--validate-rays", raw.validate_rays,
+                   "Rays of each mesh: its sets, then random segments [12500000; --quick: 100000]")
+        ->check(CLI::Range(1.0, 1e12));
+    app.add_option("--build-quality", raw.quality, "Of sah, for --validate [medium]")
+        ->check(CLI::IsMember({"fast", "medium", "high"}))
+        ->type_name("fast|medium|high");
+    app.add_option("--replay", options.replay,
+                   "Trace the rays of a replay file (renderer --validate) through all structures,\n"
+                   "with the geometry in it alone; exit code 1 if anything is unexplained")
+        ->type_name("FILE");
     app.add_flag("--list", raw.list, "Print all these names and exit");
     app.add_flag("--quick", options.quick, "Small versions of the meshes, short repetitions");
 }
@@ -175,6 +211,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
         if (options.quick)
             make_quick(app, options.measure);
         look_up(raw, options);
+        look_up_validation(raw, options);
     } catch (const CLI::Success& request) {
         parsed.exit_code = app.exit(request);
         return parsed;

@@ -3,6 +3,7 @@
 
 #include "tools/bench_src/catalogue.h"
 #include "tools/bench_src/measure.h"
+#include "tools/bench_src/validate_mesh.h"
 
 #include <filesystem>
 #include <optional>
@@ -16,8 +17,10 @@ struct Options {
     bool all_naive = false; ///< naive was asked for: also on large meshes
     bool quick = false;
     bool quiet = false;
-    int threads = 1;            ///< of the builds; 0: all cores
-    std::filesystem::path json; ///< empty: none
+    std::filesystem::path replay;            ///< not empty: trace this file's rays, nothing else
+    std::optional<ValidateOptions> validate; ///< compare instead of timing
+    int threads = 1;                         ///< of the builds; 0: all cores
+    std::filesystem::path json;              ///< empty: none
     std::string command_line;
 };
 
