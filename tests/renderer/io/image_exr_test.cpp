@@ -13,12 +13,15 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <limits>
+#include <unistd.h>
 
 namespace plumb {
 namespace {
 
+/// A file of this process: ctest runs the tests as processes side by side.
 std::filesystem::path temporary(const std::string& name) {
-    return std::filesystem::path(testing::TempDir()) / ("plumb_exr_" + name);
+    return std::filesystem::path(testing::TempDir()) /
+           ("plumb_exr_" + std::to_string(::getpid()) + "_" + name);
 }
 
 void store(const std::filesystem::path& path, const std::string& bytes) {

@@ -8,12 +8,19 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace plumb {
 namespace {
 
+/// A file of this process: ctest runs the tests as processes side by side.
+std::filesystem::path temporary(const std::string& name) {
+    return std::filesystem::path(testing::TempDir()) /
+           ("plumb_read_" + std::to_string(::getpid()) + "_" + name);
+}
+
 std::filesystem::path store(const std::string& name, const std::string& bytes) {
-    const auto path = std::filesystem::path(testing::TempDir()) / ("plumb_read_" + name);
+    const auto path = temporary(name);
     std::ofstream(path, std::ios::binary)
         .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     return path;
@@ -126,9 +133,9 @@ TEST(ReadImage, ContentOfAnotherFormatIsRefused) {
 
 TEST(ReadImage, UnknownExtensionMissingFileAndFolderAreRefused) {
     EXPECT_NE(refusal(store("a.gif", "GIF89a")).find("unknown image format"), std::string::npos);
-    EXPECT_NE(refusal(testing::TempDir() + "plumb_missing.png"), "");
-    std::filesystem::create_directories(testing::TempDir() + "plumb_folder.png");
-    EXPECT_NE(refusal(testing::TempDir() + "plumb_folder.png"), "");
+    EXPECT_NE(refusal(temporary("missing.png")), "");
+    std::filesystem::create_directories(temporary("folder.png"));
+    EXPECT_NE(refusal(temporary("folder.png")), "");
 }
 
 TEST(ReadImage, SizesThatTheFileCannotHoldAreRefused) {
