@@ -85,7 +85,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
         ->type_name("NAME,...");
     app.add_option("--threads", options.sweep.threads, "0: all cores; the numbers are the same [1]")
         ->check(CLI::Range(0, 1024));
-    app.add_option("--seed", options.sweep.seed, "Of the random trials [1]");
+    app.add_option("--seed", options.sweep.seed, "Of the random trials [1]")
+        ->check(CLI::NonNegativeNumber);
     app.add_flag("--quick", options.sweep.quick, "Fewer trials");
     app.add_flag("--list", list, "Print the axes and their methods and exit");
     app.add_flag("--quiet,-q", options.quiet, "No progress on stderr");
