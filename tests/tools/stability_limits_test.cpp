@@ -119,6 +119,7 @@ const Failing failing[] = {
     {"self-hit", 1e6, "normal-1e-3", 0.1},
     {"self-hit-scale", 1e4, "tmin-1e-4", 0.2},
     {"self-hit-scale", 1e6, "normal-1e-3", 0.2},
+    {"self-hit-sliver", 1e4, "integers", 5e-3},
     {"gap", 0, "normal-1e-3", 0.9},
     {"gap-scale", 1e-2, "integers", 0.9},
     {"gap-scale", 1e-2, "tmin-1e-4", 0.9},

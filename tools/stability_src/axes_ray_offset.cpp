@@ -90,21 +90,21 @@ Vec3 place(Random& random, const TriangleVertices& t) {
     return w.x * t.a + w.y * t.b + w.z * t.c;
 }
 
-std::vector<Outcome> self_hits(const Trial& trial, float size, float offset) {
+using MakeTriangle = std::function<TriangleVertices(Random&)>;
+
+/// Triangles of about `size` that are up to `max_aspect` times longer than wide.
+std::vector<Outcome> self_hits(const Trial& trial, float size, float max_aspect,
+                               const MakeTriangle& make) {
     std::vector<Outcome> outcomes(ways.size());
     Random random(trial.seed);
-    const Vec3 center = Vec3{offset, -offset, offset};
     for (std::size_t i = 0; i < trial.count; ++i) {
-        const auto corner = [&] { return center + size * cube_point(random, -2, 2); };
-        const Vec3 a = corner(), b = corner();
-        const TriangleVertices t{a, b, corner()};
+        const TriangleVertices t = make(random);
         const Vec3 at = place(random, t);
         const Vec3 back = direction(random);
         const Vec3 origin = at + back * (size * random.uniform(0.01f, 3));
         const bool front = random.index(2) == 0;
         const auto found = hit(t, {origin, 0, at - origin, infinity});
-        // Up to this aspect no ray meets its triangle again, whatever the offset.
-        if (!found || !(aspect(t) < 1e4f))
+        if (!found || !(aspect(t) < max_aspect))
             continue;
         const Vec3 side = front ? found->at.geometric : -found->at.geometric;
         const Vec3 d = leaving(random, side, i % 2 == 0);
@@ -116,6 +116,34 @@ std::vector<Outcome> self_hits(const Trial& trial, float size, float offset) {
         }
     }
     return outcomes;
+}
+
+/// Corners within two sizes of (offset, -offset, offset), along each axis.
+std::vector<Outcome> random_self_hits(const Trial& trial, float size, float offset) {
+    // Up to this aspect no ray meets its triangle again, whatever the offset.
+    return self_hits(trial, size, 1e4f, [&](Random& random) {
+        const auto corner = [&] {
+            return Vec3{offset, -offset, offset} + size * cube_point(random, -2, 2);
+        };
+        const Vec3 a = corner(), b = corner();
+        return TriangleVertices{a, b, corner()};
+    });
+}
+
+/// Slivers of length 1: any orientation or along an axis, the third corner anywhere along them.
+std::vector<Outcome> sliver_self_hits(const Trial& trial) {
+    return self_hits(trial, 1, infinity, [&](Random& random) {
+        Vec3 along = direction(random), across = direction(random);
+        if (random.index(3) == 0) {
+            along = {};
+            along[static_cast<int>(random.index(3))] = 1;
+        }
+        across = normalize(cross(along, across));
+        const float height = static_cast<float>(1 / trial.stress);
+        const float place = random.index(2) == 0 ? 0.0f : random.uniform();
+        const Vec3 a = cube_point(random, -1, 1);
+        return TriangleVertices{a, a + along, a + place * along + height * across};
+    });
 }
 
 /// Two parallel walls as long as the scene, a gap of 1e-4 of that between them.
@@ -177,7 +205,7 @@ void add_ray_offset_axes(std::vector<Axis>& axes) {
     self.range = "0 of all rays from 0 to 1e6";
     self.stresses = zero_and_powers(0, 6);
     self.run = [](const Trial& trial) {
-        return self_hits(trial, 0.5f, static_cast<float>(trial.stress));
+        return random_self_hits(trial, 0.5f, static_cast<float>(trial.stress));
     };
     axes.push_back(std::move(self));
 
@@ -187,9 +215,21 @@ void add_ray_offset_axes(std::vector<Axis>& axes) {
     scale.range = "0 of all rays from 1e-6 to 1e6";
     scale.stresses = powers_of_ten(-6, 6);
     scale.run = [](const Trial& trial) {
-        return self_hits(trial, static_cast<float>(0.5 * trial.stress), 0);
+        return random_self_hits(trial, static_cast<float>(0.5 * trial.stress), 0);
     };
     axes.push_back(std::move(scale));
+
+    Axis sliver = offset_axis("self-hit-sliver", "Self-hits of slivers",
+                              "length of the triangle / width, within 1 of the origin");
+    describe_self_hits(sliver);
+    sliver.tested = "rays that leave a sliver of length 1 where another ray has hit it, half of "
+                    "them grazing";
+    sliver.range = "0 of all rays from 1 to 1e4";
+    sliver.stresses = powers_of_ten(0, 7);
+    sliver.methods.back().from = 1;
+    sliver.methods.back().to = 1e4;
+    sliver.run = sliver_self_hits;
+    axes.push_back(std::move(sliver));
 
     Axis gap = offset_axis("gap", "Thin gaps far from the origin",
                            "offset in units of the scene; scene of size max(10, 2 offset)");
