@@ -75,6 +75,22 @@ inline void transpose8(const float* const* from, __m256* rows) {
     }
 }
 
+/// The least number of each of eight registers.
+inline __m256 smallest_of(const __m256 (&rows)[8]) {
+    const auto pair = [&](int i) {
+        return _mm256_min_ps(_mm256_unpacklo_ps(rows[i], rows[i + 1]),
+                             _mm256_unpackhi_ps(rows[i], rows[i + 1]));
+    };
+    const auto four = [&](int i) {
+        const __m256 a = pair(i), b = pair(i + 2);
+        return _mm256_min_ps(_mm256_shuffle_ps(a, b, 0b01'00'01'00),
+                             _mm256_shuffle_ps(a, b, 0b11'10'11'10));
+    };
+    const __m256 low = four(0), high = four(4);
+    return _mm256_min_ps(_mm256_permute2f128_ps(low, high, 0x20),
+                         _mm256_permute2f128_ps(low, high, 0x31));
+}
+
 /// One number of eight: `choose` takes the better of two, lane by lane.
 template <class Choose> inline float fold(__m256 x, Choose choose) {
     __m128 four = choose(_mm256_castps256_ps128(x), _mm256_extractf128_ps(x, 1));

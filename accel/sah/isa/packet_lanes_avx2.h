@@ -16,9 +16,13 @@ struct PacketLanes {
     static Floats load(const float* p) { return _mm256_load_ps(p); }
     static void store(float* p, Floats x) { _mm256_store_ps(p, x); }
     static Floats broadcast(float x) { return _mm256_set1_ps(x); }
+    static Floats repeat_first(Floats x) {
+        return _mm256_broadcastss_ps(_mm256_castps256_ps128(x));
+    }
     static Floats multiply_add(Floats a, Floats b, Floats c) { return _mm256_fmadd_ps(a, b, c); }
     static Floats min(Floats a, Floats b) { return _mm256_min_ps(a, b); }
     static Floats max(Floats a, Floats b) { return _mm256_max_ps(a, b); }
+    static Floats negated(Floats x) { return _mm256_xor_ps(x, broadcast(-0.0f)); }
     static Floats absolute(Floats x) { return Lanes::absolute(x); }
     /// The lanes whose sign bits differ.
     static Mask signs_differ(Floats a, Floats b) { return Lanes::bits(_mm256_xor_ps(a, b)); }
@@ -37,8 +41,9 @@ struct PacketLanes {
     static float largest(Floats x) {
         return fold(x, [](auto a, auto b) { return _mm_max_ps(a, b); });
     }
-    static float smallest(Floats x) {
-        return fold(x, [](auto a, auto b) { return _mm_min_ps(a, b); });
+    /// to[i]: the least number of rows[i].
+    static void smallest(const Floats (&rows)[8], float (&to)[8]) {
+        _mm256_storeu_ps(to, smallest_of(rows));
     }
 };
 

@@ -22,11 +22,15 @@ struct PacketLanes {
     static Floats load(const float* p) { return _mm512_load_ps(p); }
     static void store(float* p, Floats x) { _mm512_store_ps(p, x); }
     static Floats broadcast(float x) { return _mm512_set1_ps(x); }
+    static Floats repeat_first(Floats x) {
+        return _mm512_broadcastss_ps(_mm512_castps512_ps128(x));
+    }
     static Floats multiply_add(Floats a, Floats b, Floats c) { return _mm512_fmadd_ps(a, b, c); }
     /// a < b ? a : b: b where either is NaN.
     static Floats min(Floats a, Floats b) { return _mm512_min_ps(a, b); }
     /// a > b ? a : b: b where either is NaN.
     static Floats max(Floats a, Floats b) { return _mm512_max_ps(a, b); }
+    static Floats negated(Floats x) { return _mm512_xor_ps(x, broadcast(-0.0f)); }
     static Floats absolute(Floats x) { return _mm512_abs_ps(x); }
     /// The lanes whose sign bits differ.
     static Mask signs_differ(Floats a, Floats b) {
@@ -43,9 +47,14 @@ struct PacketLanes {
         const Halves h(x);
         return fold(_mm256_max_ps(h.low, h.high), [](auto a, auto b) { return _mm_max_ps(a, b); });
     }
-    static float smallest(Floats x) {
-        const Halves h(x);
-        return fold(_mm256_min_ps(h.low, h.high), [](auto a, auto b) { return _mm_min_ps(a, b); });
+    /// to[i]: the least number of rows[i].
+    static void smallest(const Floats (&rows)[8], float (&to)[8]) {
+        __m256 halves[8];
+        for (int i = 0; i < 8; ++i) {
+            const Halves h(rows[i]);
+            halves[i] = _mm256_min_ps(h.low, h.high);
+        }
+        _mm256_storeu_ps(to, smallest_of(halves));
     }
 
   private:

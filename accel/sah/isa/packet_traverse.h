@@ -122,7 +122,12 @@ template <class V, class P, bool AnyHit> class PacketTraversal {
     }
 
     void visit(unsigned active, const WideTriangles& block) {
-        for (std::size_t lane = 0; lane < wide_width; ++lane) {
+        alignas(64) float planes[6 * wide_width];
+        store_bounds<V>(block, planes);
+        typename V::Floats near;
+        unsigned touched = test_(planes, V::broadcast(farthest_), near);
+        for (; touched != 0; touched &= touched - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(touched));
             if (lane > 0 && block.number[lane] == block.number[lane - 1])
                 break; // filled up
             PacketHits<P> hits;

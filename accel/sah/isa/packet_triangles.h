@@ -10,6 +10,28 @@
 namespace plumb {
 namespace {
 
+/// triangle_bounds of each, as a node keeps its children's boxes.
+template <class V> inline void store_bounds(const WideTriangles& block, float* planes) {
+    using Floats = typename V::Floats;
+    Floats lower[3], upper[3], size;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Floats a = V::load(block.vertex[0][axis]), b = V::load(block.vertex[1][axis]);
+        const Floats c = V::load(block.vertex[2][axis]);
+        lower[axis] = V::min(a, V::min(b, c));
+        upper[axis] = V::max(a, V::max(b, c));
+        const Floats extent = upper[axis] - lower[axis];
+        size = axis == 0 ? extent : V::max(size, extent);
+    }
+    const Floats margin = V::broadcast(8 * unit_roundoff) * size;
+    const Floats ulp = V::broadcast(2 * unit_roundoff);
+    for (int axis = 0; axis < 3; ++axis) {
+        V::store(planes + 2 * axis * wide_width,
+                 lower[axis] - (margin + ulp * V::absolute(lower[axis])));
+        V::store(planes + (2 * axis + 1) * wide_width,
+                 upper[axis] + (margin + ulp * V::absolute(upper[axis])));
+    }
+}
+
 template <class P> struct PacketHits {
     typename P::Floats t, u, v;
     typename P::Mask hit;   ///< rays with tmin < t <= best_t; t, u and v hold there

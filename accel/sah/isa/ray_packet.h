@@ -10,10 +10,10 @@
 namespace plumb {
 namespace {
 
-/// How far apart a packet's rays may be: in the slope (components over the largest one), and in the
-/// origin, as a share of the scene. A packet that spreads wider visits more nodes than its rays
-/// one by one.
-inline constexpr float packet_max_slope = 1, packet_max_origin = 0.125f;
+/// How far a packet's rays may be from its first: in the slope (components over the largest one),
+/// and in the origin, as a share of the scene. A packet that spreads wider visits more nodes than
+/// its rays one by one.
+inline constexpr float packet_max_slope = 0.6f, packet_max_origin = 0.075f;
 
 /// Up to P::width rays. Where there are fewer, the rest repeat the first and can hit nothing.
 template <class P> struct RayPacket {
@@ -77,16 +77,17 @@ template <class P> struct RayPacket {
         }
         if ((good & all) != all)
             return false;
-        float apart = 0;
+        const Floats max_slope = P::broadcast(packet_max_slope);
+        const Floats max_origin = P::broadcast(packet_max_origin * reach);
         for (int axis = 0; axis < 3; ++axis) {
             inverse_rows_[axis] = P::broadcast(1) / d[axis];
             const Floats slope = d[axis] / longest;
             P::store(inverse[axis], inverse_rows_[axis]);
             P::store(shear[axis], slope);
-            apart = max(apart, max(spread(slope) * (1 / packet_max_slope),
-                                   spread(o[axis]) * (1 / packet_max_origin) / reach));
+            good &= P::bits(P::not_greater(from_first(slope), max_slope)) &
+                    P::bits(P::not_greater(from_first(o[axis]), max_origin));
         }
-        return apart < 1;
+        return (good & all) == all;
     }
 
     /// WideRay::is_ordinary of each.
@@ -102,7 +103,7 @@ template <class P> struct RayPacket {
         return good == all && reach <= wide_max_coordinate;
     }
 
-    static float spread(Floats x) { return P::largest(x) - P::smallest(x); }
+    static Floats from_first(Floats x) { return P::absolute(x - P::repeat_first(x)); }
 
     /// As WideRay::set_coefficients.
     void set_coefficients(const Floats* o_rows, const Floats* inv_rows) {
@@ -130,12 +131,24 @@ template <class P> struct PacketHull {
     float tmin;
     unsigned negative;
 
-    explicit PacketHull(const RayPacket<P>& packet)
-        : tmin(P::smallest(P::load(packet.tmin))), negative(packet.negative) {
+    explicit PacketHull(const RayPacket<P>& packet) : negative(packet.negative) {
+        // Least and, negated, largest numbers, all of them together.
+        typename P::Floats origins[8], inverses[8];
         for (int axis = 0; axis < 3; ++axis) {
-            const auto o = P::load(packet.origin[axis]), inv = P::load(packet.inverse[axis]);
-            const float o_low = P::smallest(o), o_high = P::largest(o);
-            const float i_low = P::smallest(inv), i_high = P::largest(inv);
+            origins[axis] = P::load(packet.origin[axis]);
+            inverses[axis] = P::load(packet.inverse[axis]);
+            origins[3 + axis] = P::negated(origins[axis]);
+            inverses[3 + axis] = P::negated(inverses[axis]);
+        }
+        origins[6] = origins[7] = P::load(packet.tmin);
+        inverses[6] = inverses[7] = inverses[0];
+        float o[8], i[8];
+        P::smallest(origins, o);
+        P::smallest(inverses, i);
+        tmin = o[6];
+        for (int axis = 0; axis < 3; ++axis) {
+            const float o_low = o[axis], o_high = -o[3 + axis];
+            const float i_low = i[axis], i_high = -i[3 + axis];
             const bool down = (negative >> axis & 1u) != 0;
             const float near = (down ? i_high : i_low) * (1 - 48 * unit_roundoff);
             const float far = (down ? i_low : i_high) * (1 + 40 * unit_roundoff);

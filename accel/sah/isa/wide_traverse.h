@@ -32,7 +32,10 @@ template <class V> class NodeTest {
 
     /// A bit for each child that is entered at or before `tmax`; where, in `near`.
     unsigned operator()(const WideNode& node, Floats tmax, Floats& near) const {
-        const float* planes = &node.planes[0][0][0];
+        return (*this)(&node.planes[0][0][0], tmax, near);
+    }
+    /// The same for eight boxes that lie as a node's.
+    unsigned operator()(const float* planes, Floats tmax, Floats& near) const {
         const auto at = [&](const std::ptrdiff_t* offset, const Floats* inverse,
                             const Floats* addend, int axis) {
             return V::multiply_add(V::load(planes + offset[axis]), inverse[axis], addend[axis]);
