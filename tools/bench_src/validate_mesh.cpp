@@ -35,6 +35,15 @@ std::vector<Ray> random_segments(const Bounds& box, std::size_t count, Random& r
     return rays;
 }
 
+/// Rays on which this one, or both, answered wrongly.
+std::uint64_t wrong_answers(const ValidationReport& report, Culprit culprit) {
+    std::uint64_t count = 0;
+    for (const auto& by_culprit : report.counts)
+        count += by_culprit[static_cast<std::size_t>(culprit)] +
+                 by_culprit[static_cast<std::size_t>(Culprit::both)];
+    return count;
+}
+
 } // namespace
 
 ValidationReport validate_mesh(const BenchMesh& mesh, const ValidateOptions& options,
@@ -73,14 +82,15 @@ std::string validation_head() {
     std::string line = fmt::format("{:<12}{:>12}", "mesh", "rays");
     for (std::size_t i = 0; i < agreement_count; ++i)
         line += fmt::format("{:>12}", name_of(static_cast<Agreement>(i)));
-    return line + "\n";
+    return line + fmt::format("{:>12}{:>12}\n", "sah wrong", "other wrong");
 }
 
 std::string validation_line(std::string_view mesh, const ValidationReport& report) {
     std::string line = fmt::format("{:<12}{:>12}", mesh, report.ray_count());
     for (std::size_t i = 0; i < agreement_count; ++i)
         line += fmt::format("{:>12}", report.count(static_cast<Agreement>(i)));
-    return line + "\n";
+    return line + fmt::format("{:>12}{:>12}\n", wrong_answers(report, Culprit::first),
+                              wrong_answers(report, Culprit::second));
 }
 
 } // namespace plumb::bench

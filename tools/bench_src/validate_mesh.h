@@ -17,7 +17,7 @@ struct ValidateOptions {
 [[nodiscard]] ValidationReport validate_mesh(const BenchMesh& mesh, const ValidateOptions& options,
                                              Progress& progress);
 
-/// A line for the mesh: rays, and how many of each class.
+/// A line for the mesh: rays, how many of each class, and how many either got wrong.
 [[nodiscard]] std::string validation_head();
 [[nodiscard]] std::string validation_line(std::string_view mesh, const ValidationReport& report);
 
