@@ -52,7 +52,7 @@ inline void store(std::span<const FilmPixel> pixels, const Batch& batch, Film& f
 ///     RayCounts run(const Batch& batch);       // returns when done, with the rays since clear()
 ///     void fetch(std::span<FilmPixel> film);   // the film of the chunk
 /// Cancelled: the pixels of the chunk in work have fewer samples, those behind it none. Sets
-/// stats.rays, samples and render_s.
+/// stats.rays, samples, stopped_by and render_s.
 template <class Executor> class BatchRenderer {
   public:
     BatchRenderer(const RenderJob& job, const RenderOptions& options, Executor& executor,
@@ -76,6 +76,7 @@ template <class Executor> class BatchRenderer {
             executor_.fetch(chunk);
             detail::store(chunk, batch, film);
         }
+        stats_.stopped_by = cancelled() ? StoppedBy::signal : StoppedBy::spp;
         stats_.render_s = seconds_since(start);
         return film;
     }
@@ -105,9 +106,9 @@ template <class Executor> class BatchRenderer {
             stats_.samples +=
                 std::uint64_t{batch.pixel_count} * (batch.end_sample - batch.first_sample);
             if (options_.progress)
-                options_.progress(static_cast<double>(stats_.samples) /
-                                      (static_cast<double>(pixels_) * static_cast<double>(spp)),
-                                  stats_.rays.total());
+                options_.progress({static_cast<double>(stats_.samples) /
+                                       (static_cast<double>(pixels_) * static_cast<double>(spp)),
+                                   stats_.rays.total()});
         }
     }
 

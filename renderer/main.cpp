@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <new>
@@ -42,10 +43,13 @@ void default_outputs(Options& options) {
 }
 
 Metadata metadata_of(const Options& options, const Scene& scene, const RunReport& report) {
+    // A number of samples that tools may divide a variance by: that of every pixel, or the mean.
+    const double spp = report.render.reached ? std::round(report.render.reached->spp_mean)
+                                             : static_cast<double>(scene.sampler.spp);
     return {{"software", "plumbline " PLUMB_VERSION},
             {"commandLine", options.command_line},
             {"sceneFile", options.scene.file.string()},
-            {"spp", static_cast<int>(scene.sampler.spp)},
+            {"spp", static_cast<int>(spp)},
             {"seed", std::to_string(scene.sampler.seed)},
             {"accelerator", report.accel},
             {"renderSeconds", static_cast<float>(report.render.render_s)}};
@@ -66,9 +70,11 @@ void note_fallback(const Options& options, std::string_view why) {
 bool chooses_cuda(const Options& options) {
     if (options.device == Device::cpu)
         return false;
-    std::string why =
-        options.validate ? "cuda: rays are validated on the CPU" : "cuda: needs --accel=sah";
-    if (options.accel == AccelKind::sah && !options.validate && cuda_available(&why))
+    std::string why = options.validate     ? "cuda: rays are validated on the CPU"
+                      : options.stop.any() ? "cuda: stops neither by error nor by time"
+                                           : "cuda: needs --accel=sah";
+    if (options.accel == AccelKind::sah && !options.validate && !options.stop.any() &&
+        cuda_available(&why))
         return true;
     if (options.device == Device::cuda)
         throw DeviceError(why);
@@ -81,12 +87,14 @@ Film render_with_progress(const Options& options, const Scene& scene, const Scen
     const bool on_cuda = chooses_cuda(options);
     report.accel = name_of(options.accel);
     report.threads = thread_count(options.threads);
-    ProgressPrinter progress(options.quiet);
+    report.stop = options.stop;
+    ProgressPrinter progress(options.quiet, options.stop.target_error);
     RenderOptions how;
     how.threads = options.threads;
     how.variance = options.variance;
     how.force_full_profile = options.full_profile;
-    how.progress = [&progress](double done, std::uint64_t rays) { progress.update(done, rays); };
+    how.progress = [&progress](const ProgressState& now) { progress.update(now); };
+    how.stop = options.stop;
     how.cancel = &cancelled;
     const RenderJob job = make_job(scene, tables.view());
     const Features needed = features_of(scene);

@@ -1,6 +1,7 @@
 #include "renderer/options.h"
 
 #include "renderer/io/parse_number.h"
+#include "renderer/stop_options.h"
 #include "renderer/unknown_argument.h"
 
 #include <CLI/CLI.hpp>
@@ -175,7 +176,10 @@ void add_integrator_flags(CLI::App& app, Options& options) {
     add_count(app, "--max-depth", options.max_depth, -1, 1 << 30,
               "Longest path in segments: 1 sees lights only, -1 has no limit");
     add_choice(app, "--sampler", options.sampler, sampler_names, "Random numbers [the scene's]");
-    add_count(app, "--spp", options.spp, 1, 0xffffffffll, "Samples per pixel [the scene's]");
+    add_count(app, "--spp", options.spp, 1, 0xffffffffll,
+              "Samples per pixel, the bound with --target-error or --time-limit [the scene's; 2^24 "
+              "with one of these]");
+    add_stop_flags(app, options.stop);
     app.add_option_function<std::string>(
            "--seed",
            [&options](const std::string& text) {
@@ -236,6 +240,7 @@ void check_contradictions(const Options& options) {
     if (!options.validate && (options.replay_all || !options.replay_file.empty()))
         throw CLI::ValidationError(options.replay_all ? "--replay-all" : "--replay-file",
                                    "needs --validate");
+    check_stop_flags(options);
     if (options.quiet && options.explain)
         throw CLI::ValidationError("--explain", "contradicts --quiet");
 }
@@ -291,6 +296,8 @@ void apply_options(const Options& options, Scene& scene) {
     override_with(options.rr_depth, scene.path.rr_depth);
     override_with(options.max_depth, scene.path.max_depth);
     override_with(options.sampler, scene.sampler.kind);
+    if (options.stop.any())
+        scene.sampler.spp = spp_without_bound;
     override_with(options.spp, scene.sampler.spp);
     override_with(options.seed, scene.sampler.seed);
 }

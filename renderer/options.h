@@ -2,6 +2,7 @@
 #pragma once
 
 #include "accel/intersector.h"
+#include "renderer/integrate/stopping.h"
 #include "renderer/io/load_scene.h"
 #include "renderer/io/write_images.h"
 #include "renderer/scene/scene.h"
@@ -29,6 +30,7 @@ struct Options {
     std::optional<SamplerKind> sampler;
     std::optional<std::uint32_t> spp;
     std::optional<std::uint64_t> seed;
+    StopSettings stop;
     bool variance = false;
     bool full_profile = false;
     bool explain = false;
@@ -49,7 +51,8 @@ struct ParsedOptions {
 
 [[nodiscard]] ParsedOptions parse_options(int argc, const char* const* argv);
 
-/// Puts what the command line says over what the scene says.
+/// Puts what the command line says over what the scene says. Where error or time end the render,
+/// the bound on its samples is that of the command line or spp_without_bound, not the scene's.
 void apply_options(const Options& options, Scene& scene);
 
 } // namespace plumb

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <cstdio>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -34,44 +35,64 @@ double mega(std::uint64_t count, double s) {
     return s > 0 ? static_cast<double>(count) * 1e-6 / s : 0;
 }
 
+std::string percent(double share) {
+    return std::isfinite(share) ? fmt::format("{:.3g} %", share * 100) : "unknown";
+}
+
+/// A number for JSON, which has no infinity.
+std::string json_number(double x) { return std::isfinite(x) ? fmt::format("{:.6g}", x) : "null"; }
+
+std::string why_it_ended(const RunReport& r) {
+    const Reached& reached = *r.render.reached;
+    std::string out = fmt::format("stopped by {}: error {}", name_of(r.render.stopped_by),
+                                  percent(reached.error));
+    if (r.stop.target_error > 0)
+        out += fmt::format(", target {}", percent(r.stop.target_error));
+    return out + fmt::format("; {} to {} samples a pixel, mean {:.1f}\n", reached.spp_min,
+                             reached.spp_max, reached.spp_mean);
+}
+
 double mebibytes(std::size_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
 
 } // namespace
 
-ProgressPrinter::ProgressPrinter(bool quiet)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+ProgressPrinter::ProgressPrinter(bool quiet, double target_error)
+    : target_error_(target_error), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressPrinter::~ProgressPrinter() {
     if (printed_ && terminal_)
         fmt::print(stderr, "\r\x1b[K");
 }
 
-void ProgressPrinter::update(double done, std::uint64_t rays) {
+void ProgressPrinter::update(const ProgressState& state) {
     if (quiet_)
         return;
     const std::scoped_lock lock(mutex_);
     const auto now = Clock::now();
     const double since_s = std::chrono::duration<double>(now - last_).count();
-    const bool due = terminal_ ? since_s >= 0.1 : since_s >= 1 && done - last_done_ >= 0.1;
-    if (!due || done >= 1)
+    const bool due = terminal_ ? since_s >= 0.1 : since_s >= 1 && state.done - last_done_ >= 0.1;
+    if (!due || !(state.done > 0 && state.done < 1))
         return;
     last_ = now;
-    last_done_ = done;
-    print(done, rays, std::chrono::duration<double>(now - start_).count());
+    last_done_ = state.done;
+    print(state, std::chrono::duration<double>(now - start_).count());
 }
 
-void ProgressPrinter::print(double done, std::uint64_t rays, double elapsed_s) {
+void ProgressPrinter::print(const ProgressState& state, double elapsed_s) {
     printed_ = true;
-    const std::string left = seconds(elapsed_s / done * (1 - done));
-    const double rate = mega(rays, elapsed_s);
+    const double done = state.done;
+    std::string text =
+        fmt::format("{:3.0f} %  {:.2f} Mrays/s  {} left", done * 100, mega(state.rays, elapsed_s),
+                    seconds(elapsed_s / done * (1 - done)));
+    if (state.error > 0)
+        text += fmt::format("  error {}, target {}", percent(state.error), percent(target_error_));
     if (!terminal_) {
-        fmt::print(stderr, "{:3.0f} %  {:.2f} Mrays/s  {} left\n", done * 100, rate, left);
+        fmt::print(stderr, "{}\n", text);
         return;
     }
     constexpr int width = 30;
     const int full = static_cast<int>(done * width);
-    fmt::print(stderr, "\r[{:#<{}}{: <{}}] {:3.0f} %  {:.2f} Mrays/s  {} left \x1b[K", "", full, "",
-               width - full, done * 100, rate, left);
+    fmt::print(stderr, "\r[{:#<{}}{: <{}}] {} \x1b[K", "", full, "", width - full, text);
 }
 
 std::uint64_t hash_of(const Image& image) {
@@ -109,6 +130,8 @@ std::string closing_table(const RunReport& r) {
                        r.accel, mebibytes(r.build.bytes), r.render.profile,
                        r.threads == 1 ? "1 thread" : fmt::format("{} threads", r.threads), r.device,
                        mebibytes(r.peak_bytes), r.image_hash);
+    if (r.render.reached)
+        out += why_it_ended(r);
     return out;
 }
 
@@ -130,6 +153,16 @@ std::string to_json(const RunReport& r, const Scene& scene) {
     line("spp", std::to_string(scene.sampler.spp));
     line("seed", std::to_string(scene.sampler.seed));
     line("samples", std::to_string(r.render.samples));
+    line("stopped_by", json_string(name_of(r.render.stopped_by)));
+    if (r.stop.target_error > 0)
+        line("target_error", json_number(r.stop.target_error));
+    if (r.stop.time_limit_s > 0)
+        line("time_limit_s", json_number(r.stop.time_limit_s));
+    if (const auto& reached = r.render.reached)
+        line("reached", fmt::format("{{ \"error\": {}, \"spp_min\": {}, \"spp_mean\": {:.3f}, "
+                                    "\"spp_max\": {} }}",
+                                    json_number(reached->error), reached->spp_min,
+                                    reached->spp_mean, reached->spp_max));
     line("load_s", fmt::format("{:.6f}", r.load_s));
     line("build_s", fmt::format("{:.6f}", b.build_s));
     line("render_s", fmt::format("{:.6f}", r.render.render_s));

@@ -17,6 +17,7 @@ struct RunReport {
     std::string accel;
     std::string device = "cpu";
     int threads = 1;
+    StopSettings stop;
     double load_s = 0, write_s = 0, total_s = 0;
     AccelStats build;
     RenderStats render;
@@ -26,22 +27,23 @@ struct RunReport {
 };
 
 /// Progress on stderr: a bar on a terminal, a plain line every 10 % (at most one a second)
-/// elsewhere. Thread-safe.
+/// elsewhere; with the error reached, where there is a target. Thread-safe.
 class ProgressPrinter {
   public:
-    explicit ProgressPrinter(bool quiet);
+    /// `target_error`: 0 without one.
+    ProgressPrinter(bool quiet, double target_error);
     ~ProgressPrinter();
     ProgressPrinter(const ProgressPrinter&) = delete;
     ProgressPrinter& operator=(const ProgressPrinter&) = delete;
-    void update(double done, std::uint64_t rays);
+    void update(const ProgressState& now);
 
   private:
     using Clock = std::chrono::steady_clock;
-    void print(double done, std::uint64_t rays, double elapsed_s);
+    void print(const ProgressState& now, double elapsed_s);
 
     std::mutex mutex_;
     Clock::time_point start_ = Clock::now(), last_ = start_;
-    double last_done_ = 0;
+    double last_done_ = 0, target_error_;
     bool quiet_, terminal_, printed_ = false;
 };
 

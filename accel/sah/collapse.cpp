@@ -115,6 +115,7 @@ WideView WideBvh::view() const {
     view.geometry_count = static_cast<std::uint32_t>(first_of.size());
     view.reach = reach;
     view.empty = leaf_count == 0;
+    view.tiny = memory.bytes() <= 16 * 1024;
     return view;
 }
 

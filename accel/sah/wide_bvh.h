@@ -68,6 +68,7 @@ struct WideView {
     std::uint32_t geometry_count = 0;          ///< meshes and the one of all spheres
     float reach = 0;                           ///< largest absolute coordinate of the root's box
     bool empty = true;                         ///< nothing to hit, no root
+    bool tiny = false;                         ///< fits in the first-level cache beside the rest
 
     static constexpr std::size_t unit_bytes = 64;
 

@@ -4,6 +4,7 @@
 #include "renderer/scene/image.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace plumb {
@@ -39,6 +40,11 @@ class Film {
     [[nodiscard]] bool with_variance() const { return with_variance_; }
     /// (x, y) in the full film, inside the crop.
     [[nodiscard]] FilmPixel& pixel(int x, int y);
+    /// All pixels of the crop, row by row.
+    [[nodiscard]] std::span<FilmPixel> pixels() { return pixels_; }
+    [[nodiscard]] std::span<const FilmPixel> pixels() const { return pixels_; }
+    /// Keeps the variance no longer, for later samples and for resolve().
+    void forget_variance() { with_variance_ = false; }
     [[nodiscard]] std::size_t bytes() const { return pixels_.size() * sizeof(FilmPixel); }
     /// Means, and variances of one sample where they were kept; pixels without samples are black.
     [[nodiscard]] Image resolve() const;

@@ -1,98 +1,65 @@
 #include "renderer/integrate/render.h"
 
-#include "accel/parallel/parallel.h"
-#include "renderer/integrate/path_stream.h"
-
-#include <chrono>
-#include <mutex>
+#include "renderer/integrate/adaptive.h"
+#include "renderer/integrate/deadline.h"
+#include "renderer/integrate/pixel_error.h"
+#include "renderer/integrate/tiles.h"
 
 namespace plumb {
 namespace {
 
-constexpr int tile_size = 16;
-constexpr int block_size = 4;                  // pixels whose samples are neighbours in a stream
-constexpr std::uint32_t samples_in_block = 16; // of each pixel
-
-/// The query of the CPU kernels: any Intersector.
-struct IntersectorQuery {
-    const Intersector& intersector;
-
-    [[nodiscard]] Hit closest(const Ray& ray) const { return intersector.closest(ray); }
-    [[nodiscard]] bool occluded(const Ray& ray) const { return intersector.occluded(ray); }
-};
-
-struct Tile {
-    int x0, y0, x1, y1;
-};
-
-Tile tile_at(const Crop& crop, std::size_t index) {
-    const int columns = (crop.width + tile_size - 1) / tile_size;
-    const int x0 = crop.x + static_cast<int>(index % static_cast<std::size_t>(columns)) * tile_size;
-    const int y0 = crop.y + static_cast<int>(index / static_cast<std::size_t>(columns)) * tile_size;
-    return {x0, y0, std::min(x0 + tile_size, crop.x + crop.width),
-            std::min(y0 + tile_size, crop.y + crop.height)};
+/// All samples in one go.
+Film render_all(const RenderJob& job, const TileRenderer& tiles, const RenderOptions& options,
+                RenderStats& stats) {
+    Film film(job.width, job.height, job.crop, options.variance);
+    tiles.render(job, {0, job.sampler.spp}, nullptr, film, stats.rays,
+                 [&options](double share, std::uint64_t rays) {
+                     if (options.progress)
+                         options.progress({share, rays});
+                 });
+    stats.stopped_by = tiles.cancelled() ? StoppedBy::signal : StoppedBy::spp;
+    return film;
 }
 
-std::size_t tile_count(const Crop& crop) {
-    const auto tiles = [](int n) {
-        return static_cast<std::size_t>((n + tile_size - 1) / tile_size);
+/// As many samples of every pixel as fit into the time.
+Film render_until(const RenderJob& job, const TileRenderer& tiles, const RenderOptions& options,
+                  RenderStats& stats) {
+    Deadline deadline(options.stop.time_limit_s);
+    Film film(job.width, job.height, job.crop, true);
+    const double pixels = static_cast<double>(film.pixels().size());
+    const double spp = job.sampler.spp;
+    std::uint32_t n = 0;
+    const auto report = [&](double, std::uint64_t rays) {
+        if (options.progress)
+            options.progress({std::min(1.0, std::max(deadline.share_used(), n / spp)), rays});
     };
-    return tiles(crop.width) * tiles(crop.height);
-}
-
-/// Renders the pixels of one tile. A set `cancel` ends it early: they keep the samples they have.
-using TileKernel = RayCounts (*)(const RenderJob& job, const Intersector& intersector,
-                                 const Tile& tile, const std::atomic<bool>& cancel, Film& film);
-
-/// Path by path, ray by ray: what a GPU thread does.
-template <Features F>
-RayCounts render_tile_ray_by_ray(const RenderJob& job, const Intersector& intersector,
-                                 const Tile& tile, const std::atomic<bool>& cancel, Film& film) {
-    const IntersectorQuery query{intersector};
-    RayCounts counts;
-    for (int y = tile.y0; y < tile.y1; ++y)
-        for (int x = tile.x0; x < tile.x1; ++x) {
-            FilmPixel& pixel = film.pixel(x, y);
-            for (std::uint32_t s = 0; s < job.sampler.spp; ++s) {
-                if (s % 64 == 0 && cancel.load(std::memory_order_relaxed))
-                    return counts;
-                pixel.add(sample_pixel<F>(job, query, x, y, s, counts), film.with_variance());
-            }
+    stats.stopped_by = StoppedBy::spp;
+    while (n < job.sampler.spp && !tiles.cancelled()) {
+        const std::uint32_t end = deadline.reachable(n, job.sampler.spp, pixels);
+        if (end == n) {
+            stats.stopped_by = StoppedBy::time_limit;
+            break;
         }
-    return counts;
+        tiles.render(job, {n, end}, nullptr, film, stats.rays, report);
+        deadline.passed();
+        n = end;
+    }
+    if (tiles.cancelled())
+        stats.stopped_by = StoppedBy::signal;
+    return film;
 }
 
-/// The same in streams. Neighbours in the stream are samples of one pixel, then pixels of a small
-/// block: their rays run alike.
-template <Features F>
-RayCounts render_tile(const RenderJob& job, const Intersector& intersector, const Tile& tile,
-                      const std::atomic<bool>& cancel, Film& film) {
-    RayCounts counts;
-    PathStream<F> stream(job, intersector);
-    const auto add_block = [&](int x0, int y0, std::uint32_t first) {
-        const std::uint32_t end = first + std::min(samples_in_block, job.sampler.spp - first);
-        for (int y = y0; y < std::min(y0 + block_size, tile.y1); ++y)
-            for (int x = x0; x < std::min(x0 + block_size, tile.x1); ++x)
-                for (std::uint32_t s = first; s < end; ++s) {
-                    stream.add(x, y, s);
-                    if (stream.full())
-                        stream.trace(film, counts);
-                }
-        return end;
-    };
-    for (int y = tile.y0; y < tile.y1; y += block_size)
-        for (int x = tile.x0; x < tile.x1; x += block_size)
-            for (std::uint32_t s = 0; s < job.sampler.spp; s = add_block(x, y, s))
-                if (cancel.load(std::memory_order_relaxed)) {
-                    stream.trace(film, counts);
-                    return counts;
-                }
-    stream.trace(film, counts);
-    return counts;
-}
-
-template <Features F> TileKernel tile_kernel(bool ray_by_ray) {
-    return ray_by_ray ? render_tile_ray_by_ray<F> : render_tile<F>;
+Reached reached_by(const Film& film) {
+    Reached reached;
+    reached.error = error_of_image(film.pixels());
+    reached.spp_min = 0xffffffffu;
+    for (const FilmPixel& pixel : film.pixels()) {
+        reached.spp_min = std::min(reached.spp_min, pixel.count);
+        reached.spp_max = std::max(reached.spp_max, pixel.count);
+        reached.spp_mean += pixel.count;
+    }
+    reached.spp_mean /= static_cast<double>(film.pixels().size());
+    return reached;
 }
 
 } // namespace
@@ -112,25 +79,17 @@ RenderJob make_job(const Scene& scene, const SceneView& view) {
 Film render(const RenderJob& job, const Features& needed, const Intersector& intersector,
             const RenderOptions& options, RenderStats& stats) {
     const auto start = std::chrono::steady_clock::now();
-    const bool box = box_profile.covers(needed) && !options.force_full_profile;
-    stats.profile = box ? profile_name(box_profile) : profile_name(full_profile);
-    const TileKernel kernel = box ? tile_kernel<box_profile>(options.ray_by_ray)
-                                  : tile_kernel<full_profile>(options.ray_by_ray);
-    Film film(job.width, job.height, job.crop, options.variance);
-    const std::size_t tiles = tile_count(job.crop);
-    const std::atomic<bool> never{false};
-    const std::atomic<bool>& cancel = options.cancel != nullptr ? *options.cancel : never;
-    std::mutex mutex; // guards stats and the progress callback
-    std::size_t done = 0;
-    parallel_for(tiles, options.threads, [&](std::size_t i) {
-        const RayCounts counts = kernel(job, intersector, tile_at(job.crop, i), cancel, film);
-        const std::scoped_lock lock(mutex);
-        stats.rays += counts;
-        ++done;
-        if (options.progress)
-            options.progress(static_cast<double>(done) / static_cast<double>(tiles),
-                             stats.rays.total());
-    });
+    const TileRenderer tiles(needed, intersector, options);
+    stats.profile = tiles.profile();
+    const auto how = options.stop.target_error > 0   ? render_adaptively
+                     : options.stop.time_limit_s > 0 ? render_until
+                                                     : render_all;
+    Film film = how(job, tiles, options, stats);
+    if (options.stop.any()) {
+        stats.reached = reached_by(film);
+        if (!options.variance)
+            film.forget_variance();
+    }
     stats.samples = stats.rays.camera;
     stats.render_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

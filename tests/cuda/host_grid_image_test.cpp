@@ -144,10 +144,10 @@ TEST(HostGrid, ProgressGrowsToOneWithAllRays) {
     std::vector<double> shares;
     std::uint64_t rays = 0;
     RenderOptions how;
-    how.progress = [&](double done, std::uint64_t n) {
-        shares.push_back(done);
-        EXPECT_GE(n, rays);
-        rays = n;
+    how.progress = [&](const ProgressState& now) {
+        shares.push_back(now.done);
+        EXPECT_GE(now.rays, rays);
+        rays = now.rays;
     };
     const Outcome grid = on_grid<box_profile>(scene, {}, how);
     ASSERT_GT(shares.size(), 4u); // 441 pixels in chunks of 100
@@ -161,7 +161,7 @@ TEST(HostGrid, CancelledItKeepsTheChunksThatAreDone) {
     std::atomic<bool> cancel{false};
     RenderOptions how;
     how.cancel = &cancel;
-    how.progress = [&](double done, std::uint64_t) { cancel = done > 0.4; };
+    how.progress = [&](const ProgressState& now) { cancel = now.done > 0.4; };
     const Outcome grid = on_grid<box_profile>(scene, {}, how);
     const Outcome whole = on_cpu(scene, AccelKind::sah);
     EXPECT_LT(grid.stats.samples, whole.stats.samples);

@@ -104,6 +104,22 @@ TEST_F(CommandLine, BadCallsSayWhatIsWrongAndWriteNothing) {
         {"--accel=embree --triangle-test=moeller-trumbore box.xml", 2, "needs --accel=naive"},
         {"--device=cuda --accel=naive box.xml", 2, "needs --accel=sah"},
         {"--quiet --explain box.xml", 2, "contradicts"},
+        {"--target-error 0 box.xml", 2, "--target-error: bad error (got '0', expected above 0"},
+        {"--target-error=-0.1 box.xml", 2, "(got '-0.1', expected above 0 to 1)"},
+        {"--target-error nan box.xml", 2, "(got 'nan', expected above 0 to 1)"},
+        {"--target-error 1.5 box.xml", 2, "(got '1.5', expected above 0 to 1)"},
+        {"--target-error 1% box.xml", 2, "(got '1%', expected above 0 to 1)"},
+        {"--target-error 0.1 --spp 3 box.xml", 2, "(got --spp '3', expected at least 4)"},
+        {"--target-error 0.1 --device=cuda box.xml", 2, "--target-error: needs --device=cpu"},
+        {"--target-error 0.1 --variance box.xml", 2, "--variance: contradicts --target-error"},
+        {"--time-limit abc box.xml", 2, "--time-limit: bad time (got 'abc', expected above 0"},
+        {"--time-limit 0 box.xml", 2, "(got '0', expected above 0"},
+        {"--time-limit=-5s box.xml", 2, "(got '-5s', expected above 0"},
+        {"--time-limit s box.xml", 2, "(got 's', expected above 0"},
+        {"--time-limit 3d box.xml", 2, "(got '3d', expected above 0"},
+        {"--time-limit inf box.xml", 2, "(got 'inf', expected above 0"},
+        {"--time-limit 1e300h box.xml", 2, "(got '1e300h', expected above 0"},
+        {"--time-limit 1s --device=cuda box.xml", 2, "--time-limit: needs --device=cpu"},
         {"--view Sepia -o a.png box.xml", 2, "(got 'Sepia', expected one of sRGB"},
         {"-o a.exr -o a.exr box.xml", 2, "a.exr"},
         {"missing.xml", 3, "missing.xml: error: "},
@@ -150,6 +166,38 @@ TEST_F(CommandLine, QuietPrintsNothingAndStatsHoldTheNumbers) {
         EXPECT_NE(stats.find(line), std::string::npos) << line << '\n' << stats;
 }
 
+/// What the run says of its end, in the table and in --stats.
+TEST_F(CommandLine, StoppingByErrorOrTimeSaysWhichWasHit) {
+    const struct {
+        const char *arguments, *stopped_by;
+    } calls[] = {
+        {"--target-error 0.5", "target-error"},
+        {"--target-error 0.5 --time-limit 1h", "target-error"},
+        {"--target-error 1e-6 --time-limit 50ms", "time-limit"},
+        {"--time-limit 0.05", "time-limit"},
+        {"--time-limit 0.05s --variance", "time-limit"},
+        {"--target-error 1e-6 --spp 80", "spp"},
+        {"--time-limit 1h --spp 5", "spp"},
+        {"--target-error 0.5 --validate=naive", "target-error"},
+        {"--target-error 0.5 --device=auto", "target-error"},
+    };
+    for (const auto& call : calls) {
+        const std::string arguments = call.arguments;
+        const Outcome run = renderer(arguments + " --stats s.json -o a.exr box.xml");
+        EXPECT_EQ(run.exit_code, 0) << run.output;
+        const std::string table = std::string("stopped by ") + call.stopped_by + ": error ";
+        EXPECT_NE(run.output.find(table), std::string::npos) << arguments << '\n' << run.output;
+        const std::string stats = read("s.json");
+        const std::string json = std::string("\"stopped_by\": \"") + call.stopped_by + "\"";
+        EXPECT_NE(stats.find(json), std::string::npos) << arguments << '\n' << stats;
+        EXPECT_NE(stats.find("\"reached\": { \"error\": "), std::string::npos) << stats;
+    }
+    const Outcome plain = renderer("--stats s.json -o a.exr box.xml");
+    EXPECT_EQ(plain.output.find("stopped by"), std::string::npos) << plain.output;
+    EXPECT_NE(read("s.json").find("\"stopped_by\": \"spp\""), std::string::npos);
+    EXPECT_EQ(read("s.json").find("reached"), std::string::npos);
+}
+
 TEST_F(CommandLine, ExplainNamesTheContentsAndTheKernel) {
     const Outcome run = renderer("--explain box.xml");
     EXPECT_EQ(run.exit_code, 0);
@@ -182,11 +230,14 @@ TEST_F(CommandLine, LittleMemoryIsAResourceErrorNotACrash) {
 }
 
 TEST_F(CommandLine, SignalsEndInTheImageSoFarAndTheirExitCode) {
-    const Outcome run = renderer("--spp 100000000 -q -o a.exr box.xml",
-                                 "timeout --preserve-status --signal=TERM 0.5");
-    EXPECT_EQ(run.exit_code, 128 + SIGTERM) << run.output;
-    EXPECT_TRUE(fs::exists(folder_ / "a.exr"));
-    EXPECT_EQ(file_count(), 2u);
+    for (const std::string stop : {"", "--time-limit 1h ", "--target-error 1e-5 "}) {
+        const Outcome run = renderer(stop + "--spp 100000000 -q --stats s.json -o a.exr box.xml",
+                                     "rm -f a.exr && timeout --preserve-status --signal=TERM 0.5");
+        EXPECT_EQ(run.exit_code, 128 + SIGTERM) << run.output;
+        EXPECT_TRUE(fs::exists(folder_ / "a.exr"));
+        EXPECT_EQ(file_count(), 3u);
+        EXPECT_NE(read("s.json").find("\"stopped_by\": \"signal\""), std::string::npos) << stop;
+    }
 }
 
 } // namespace

@@ -64,6 +64,7 @@ Rendered render_file(const fs::path& file, const RenderSetup& setup) {
     how.variance = setup.variance;
     how.force_full_profile = setup.full_profile;
     how.ray_by_ray = setup.ray_by_ray;
+    how.stop = setup.stop;
     Rendered result;
     result.image =
         render(make_job(scene, tables.view()), features_of(scene), *intersector, how, result.stats)

@@ -21,6 +21,7 @@ struct RenderSetup {
     bool variance = false;
     bool full_profile = false;
     bool ray_by_ray = false;
+    StopSettings stop;
     std::vector<std::pair<std::string, std::string>> parameters; ///< -D name=value
     std::function<void(Scene&)> adjust; ///< puts options over the scene's own settings
 };

@@ -106,6 +106,12 @@ template <class V, Guess G>
     }
     StackEntry a = entry(first), b = entry(second);
     order(a, b);
+    const auto nearest = [&](StackEntry e) {
+        if constexpr (G == Guess::branch)
+            return child_at<G>(node, V::find(&node.child[0].bits, static_cast<std::uint32_t>(e)));
+        else
+            return ref_of(e);
+    };
     if (mask == 0) {
         stack[size++] = b;
         return ref_of(a);
@@ -117,7 +123,7 @@ template <class V, Guess G>
         stack[size] = c;
         stack[size + 1] = b;
         size += 2;
-        return ref_of(a);
+        return nearest(a);
     }
     StackEntry d = entry(take());
     order(c, d);
@@ -136,7 +142,7 @@ template <class V, Guess G>
             stack[i] = stack[i - 1];
         stack[i] = e;
     }
-    return ref_of(stack[--size]);
+    return nearest(stack[--size]);
 }
 
 } // namespace

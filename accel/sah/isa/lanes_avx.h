@@ -39,6 +39,13 @@ struct Lanes {
     static Floats either(Floats a, Floats b) { return _mm256_or_ps(a, b); }
     /// One bit a lane: its sign, or that it is in a mask.
     static unsigned bits(Floats x) { return static_cast<unsigned>(_mm256_movemask_ps(x)); }
+    /// The lane of a number that is there.
+    static unsigned find(const std::uint32_t* in, std::uint32_t number) {
+        const __m256i all = _mm256_load_si256(reinterpret_cast<const __m256i*>(in));
+        const __m256i same = _mm256_cmpeq_epi32(all, _mm256_set1_epi32(static_cast<int>(number)));
+        return static_cast<unsigned>(
+            __builtin_ctz(static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(same)))));
+    }
     /// Writes the numbers whose bit is set, in order, and anything behind them up to eight.
     static void store_packed(std::uint32_t* to, const std::uint32_t* from, unsigned mask) {
         const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));

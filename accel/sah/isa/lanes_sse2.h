@@ -69,6 +69,13 @@ struct Lanes {
     static unsigned bits(Floats x) {
         return static_cast<unsigned>(_mm_movemask_ps(x.low) | _mm_movemask_ps(x.high) << 4);
     }
+    /// The lane of a number that is there.
+    static unsigned find(const std::uint32_t* in, std::uint32_t number) {
+        unsigned lane = 0;
+        while (in[lane] != number)
+            ++lane;
+        return lane;
+    }
     /// Writes the numbers whose bit is set, in order.
     static void store_packed(std::uint32_t* to, const std::uint32_t* from, unsigned mask) {
         for (; mask != 0; mask &= mask - 1)

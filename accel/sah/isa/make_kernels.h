@@ -9,14 +9,23 @@
 namespace plumb {
 namespace {
 
-/// Whether this thread's ray starts near the one before it, within 1/64 of the scene, and so is
-/// likely to do the same. The first ray of a thread does not matter.
-inline bool resembles_last(const Ray& ray, float reach) {
-    alignas(16) thread_local float last[4]{};
+/// Whether a ray is likely to do what the one before it did: of this thread's last sixteen rays
+/// most started near the one before, within 1/16 of the scene. (One alone would change its mind at
+/// every silhouette.) In a tiny tree a wrong guess costs less than asking.
+inline bool resembles_last(const WideView& tree, const Ray& ray) {
+    struct Past {
+        alignas(16) float origin[4];
+        std::uint32_t near; ///< a bit a ray, the last one lowest
+    };
+    thread_local Past past{};
+    if (tree.tiny)
+        return true;
     const __m128 origin = _mm_loadu_ps(&ray.origin.x);
-    const __m128 step = absolute4(_mm_sub_ps(origin, _mm_load_ps(last)));
-    _mm_store_ps(last, origin);
-    return (_mm_movemask_ps(_mm_cmplt_ps(step, _mm_set1_ps(reach * 0x1p-6f))) & 7) == 7;
+    const __m128 step = absolute4(_mm_sub_ps(origin, _mm_load_ps(past.origin)));
+    _mm_store_ps(past.origin, origin);
+    const int far = _mm_movemask_ps(_mm_cmpnlt_ps(step, _mm_set1_ps(tree.reach * 0x1p-4f))) & 7;
+    past.near = past.near << 1 | (far == 0 ? 1u : 0u);
+    return std::popcount(past.near & 0xffffu) > 8;
 }
 
 /// For instruction sets without packets.
@@ -33,7 +42,7 @@ template <class V, class P, TriangleTest Test> struct Kernels {
             return closest_careful(tree, ray, Test);
         if (tree.empty)
             return {};
-        return resembles_last(ray, tree.reach)
+        return resembles_last(tree, ray)
                    ? closest_ordinary<V, Test, Guess::branch>(tree, ray, NoCounter{})
                    : closest_ordinary<V, Test, Guess::select>(tree, ray, NoCounter{});
     }
@@ -42,7 +51,7 @@ template <class V, class P, TriangleTest Test> struct Kernels {
             return occluded_careful(tree, ray, Test);
         if (tree.empty)
             return false;
-        return resembles_last(ray, tree.reach)
+        return resembles_last(tree, ray)
                    ? occluded_ordinary<V, Test, Guess::branch>(tree, ray, NoCounter{})
                    : occluded_ordinary<V, Test, Guess::select>(tree, ray, NoCounter{});
     }
