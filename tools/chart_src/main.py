@@ -1,64 +1,49 @@
-"""tools/chart: options, the rounds of measurements, chart.json and the pictures."""
-import argparse
+"""tools/chart: the rounds of measurements, chart.json and the pictures.
+
+Exit codes: 0 done, 2 usage, 3 scene, 5 output, 6 no renderer, 128+n stopped by signal n (what was
+measured is written), else the renderer's own.
+"""
 import json
 import os
+import signal
 import sys
 import tempfile
 import time
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[0] = os.path.join(ROOT, "tools")
+sys.path[0] = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
-from chart_src import analysis, measure, methods, reference, report_svg  # noqa: E402
+from chart_src import analysis, measure, options, reference, report_svg  # noqa: E402
+from chart_src.progress import Progress  # noqa: E402
+from page_src.files import write  # noqa: E402
 
-SCENES = ["cornell-box", "sphere-light", "many-lights"]
-
-
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        print(f"error: {message} (see --help)", file=sys.stderr)
-        sys.exit(2)
+REFERENCE_SHARE = 0.25  # of a scene's time
 
 
-def positive(kind):
-    def parse(text):
-        value = kind(text)
-        if not 0 < value < 1e9:
-            raise ValueError
-        return value
-    parse.__name__ = "positive number"
-    return parse
+class Stopped(KeyboardInterrupt):
+    """A signal asks to end."""
+
+    def __init__(self, number):
+        super().__init__()
+        self.number = number
 
 
-def parse(arguments):
-    p = Parser(prog="chart", description="Error against time of the renderer's methods.")
-    p.add_argument("scenes", nargs="*", help="default: " + ", ".join(SCENES))
-    p.add_argument("--methods", nargs="+", default=["*"], help="names with *, or KEY=VALUE+KEY=VALUE")
-    p.add_argument("--time", type=positive(float), default=120, help="seconds for all measurements [120]")
-    p.add_argument("--out", default="chart", help="folder that receives everything [chart]")
-    p.add_argument("--seeds", type=positive(int), default=4, help="independent runs of each point [4]")
-    p.add_argument("--max-spp", type=positive(int), default=1024)
-    p.add_argument("--threads", type=positive(int), default=1)
-    p.add_argument("--width", type=positive(int), default=96, help="pixels a side [96]")
-    p.add_argument("--clock", choices=["wall", "cpu"], default="wall", help="cpu: for a busy machine")
-    p.add_argument("--quick", action="store_true", help="48 pixels, 2 seeds, 16 spp, 20 s")
-    p.add_argument("--renderer", default=os.path.join(ROOT, "build/bin/renderer"))
-    p.add_argument("--cache", default=os.path.join(ROOT, "build/chart-references"))
-    o = p.parse_args(arguments)
-    if o.quick:
-        o.width, o.seeds, o.max_spp, o.time = 48, min(o.seeds, 2), min(o.max_spp, 16), min(o.time, 20)
-    try:
-        o.chosen = methods.select(o.methods)
-    except ValueError as error:
-        p.error(f"--methods: {error}")
-    o.scenes = o.scenes or [os.path.join(ROOT, "scenes", s + ".xml") for s in SCENES]
-    return o
+def listen():
+    """The first signal raises Stopped, later ones do nothing: results are being written."""
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+    def stop(number, _):
+        for n in numbers:
+            signal.signal(n, signal.SIG_IGN)
+        raise Stopped(number)
+    for n in numbers:
+        signal.signal(n, stop)
 
 
-def measure_scene(scene, o, renderer, end, result):
+def measure_scene(scene, o, renderer, end, result, progress):
     """Level by level, each method with all seeds if that fits before `end` (monotonic seconds);
     seeds outside, methods inside, so that a disturbance hits all alike."""
-    ref = reference.make_reference(scene, renderer, o.cache, 0.25 * (end - time.monotonic()))
+    progress.stage(f"{result['name']}: reference")
+    ref = reference.make_reference(scene, renderer, o.cache, REFERENCE_SHARE * (end - time.monotonic()))
     result["reference"] = {"spp": ref.spp, "seconds": ref.seconds, "mse": float(ref.variance.mean())}
     took, spp = {}, 1
     while spp <= o.max_spp:
@@ -68,48 +53,26 @@ def measure_scene(scene, o, renderer, end, result):
             if need <= left:
                 fits.append(m)
                 left -= need
+        if not fits:
+            return
+        progress.stage(f"{result['name']}: {spp} spp, {len(fits)} of {len(o.chosen)} methods")
         for seed in range(o.seeds):
             for m in fits:
                 if time.monotonic() >= end:
                     return
-                measure.progress(f"{result['name']}: {m.name}, {spp} spp, seed {seed}")
+                progress.detail(f"{m.name}, seed {seed}")
                 begun = time.monotonic()
                 picture, record = renderer.render(scene, m, spp, seed)
                 record["seconds"] = record[o.clock + "_s"]
                 record.update(measure.errors_of(picture, ref))
                 result["runs"].append(record)
                 took[m.name, spp] = took.get((m.name, spp), 0) + time.monotonic() - begun
-        if not fits:
-            return
         spp *= 2
 
 
-def write(path, text):
-    """Whole or not at all."""
-    part = f"{path}.{os.getpid()}.part"
-    with open(part, "w", encoding="utf-8") as file:
-        file.write(text)
-    os.replace(part, path)
-
-
-def cpu_model():
-    with open("/proc/cpuinfo", encoding="utf-8") as file:
-        return next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "unknown")
-
-
-def main(arguments):
-    o = parse(arguments)
-    for scene in o.scenes:
-        if not os.path.isfile(scene):
-            print(f"{scene}: error: cannot open: no such file", file=sys.stderr)
-            return 3
-    try:
-        os.makedirs(o.out, exist_ok=True)
-        write(os.path.join(o.out, "chart.json"), "{}\n")
-    except OSError as error:
-        print(f"{o.out}: error: {error.strerror}", file=sys.stderr)
-        return 5
-    code, results, start = 0, [], time.monotonic()
+def measure_all(o, results, progress):
+    """Exit code; what was measured until then stands in `results`."""
+    start = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
         renderer = measure.Renderer(o.renderer, folder, o.threads, o.width)
         try:
@@ -117,23 +80,60 @@ def main(arguments):
                 name = os.path.splitext(os.path.basename(scene))[0]
                 results.append({"name": name, "runs": []})
                 end = start + o.time * (i + 1) / len(o.scenes)
-                measure_scene(scene, o, renderer, end, results[-1])
-        except KeyboardInterrupt:
-            code = 130
+                measure_scene(scene, o, renderer, end, results[-1], progress)
+            return 0
+        except Stopped as stopped:
+            return 128 + stopped.number
         except measure.RenderError as error:
+            progress.end()
             print(error, file=sys.stderr)
-            code = error.code
-        measure.progress("")
-        version = renderer.version()
+            return error.code
+
+
+def cpu_model():
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        return next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "unknown")
+
+
+def report(o, version, results, complete):
+    """Writes everything; nothing where nothing was measured."""
+    results = [r for r in results if r["runs"]]
     for r in results:
         r["summary"] = analysis.summary(r["runs"])
+    if not results:
+        return
+    table = {"renderer": version, "cpu": cpu_model(), "clock": o.clock, "threads": o.threads, "width": o.width,
+             "seeds": o.seeds, "time_s": o.time, "complete": complete, "scenes": results,
+             "methods": [{"name": m.name, "choices": m.choices} for m in o.chosen]}
+    write(os.path.join(o.out, "chart.json"), json.dumps(table) + "\n")
+    for r in results:
         if r["summary"]:
             write(os.path.join(o.out, r["name"] + ".svg"), report_svg.chart(r))
             print(analysis.text(r))
-    table = {"renderer": version, "cpu": cpu_model(), "clock": o.clock, "width": o.width,
-             "seeds": o.seeds, "complete": code == 0, "scenes": results,
-             "methods": [{"name": m.name, "choices": m.choices} for m in o.chosen]}
-    write(os.path.join(o.out, "chart.json"), json.dumps(table, indent=1) + "\n")
+
+
+def main(arguments):
+    o = options.parse(arguments)
+    for scene in o.scenes:
+        if not os.path.isfile(scene):
+            print(f"{scene}: error: cannot open (got no file, expected a scene)", file=sys.stderr)
+            return 3
+    try:
+        version = measure.version(o.renderer)
+    except OSError as error:
+        print(f"{o.renderer}: error: cannot run: {error.strerror}", file=sys.stderr)
+        return 6
+    progress, results = Progress(o.quiet), []
+    listen()
+    try:
+        os.makedirs(o.out, exist_ok=True)
+        tempfile.TemporaryFile(dir=o.out).close()
+        code = measure_all(o, results, progress)
+        progress.end()
+        report(o, version, results, code == 0)
+    except OSError as error:
+        print(f"{error.filename or o.out}: error: cannot write: {error.strerror}", file=sys.stderr)
+        return 5
     return code
 
 

@@ -2,7 +2,6 @@
 import json
 import os
 import subprocess
-import sys
 
 import numpy as np
 
@@ -26,14 +25,15 @@ def read_pfm(path):
     return data.reshape(height, width, 3)[::-1].astype(float)
 
 
+def version(program):
+    return subprocess.run([program, "--version"], capture_output=True, text=True, check=False).stdout.strip()
+
+
 class Renderer:
     """The program, with what is the same for all runs; scratch files go to `folder`."""
 
     def __init__(self, program, folder, threads, width):
         self.program, self.folder, self.threads, self.width = program, folder, threads, width
-
-    def version(self):
-        return subprocess.run([self.program, "--version"], capture_output=True, text=True).stdout.strip()
 
     def size(self, scene):
         with open(scene, encoding="utf-8", errors="replace") as file:
@@ -52,6 +52,7 @@ class Renderer:
             process.returncode = os.waitstatus_to_exitcode(status)
         except KeyboardInterrupt:
             process.kill()
+            process.wait()
             raise
         if process.returncode != 0:
             raise RenderError(errors.strip(), process.returncode if process.returncode > 0 else 70)
@@ -80,7 +81,3 @@ def outlier_share(square):
     total = pixels.sum()
     return float(pixels[-max(1, len(pixels) // 1000):].sum() / total) if total > 0 else 0.0
 
-
-def progress(text):
-    if sys.stderr.isatty():
-        print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)

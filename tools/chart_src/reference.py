@@ -6,6 +6,7 @@ import time
 
 import numpy as np
 
+from chart_src.measure import version
 from chart_src.methods import Method
 from chart_src.statistics import reference_variance
 
@@ -29,14 +30,15 @@ def key_of(scene, renderer):
         if os.path.isfile(path):
             with open(path, "rb") as file:
                 digest.update(file.read())
-    digest.update(f"{renderer.width} {renderer.version()}".encode())
+    digest.update(f"{renderer.width} {version(renderer.program)}".encode())
     return digest.hexdigest()[:24]
 
 
 def make_reference(scene, renderer, cache, budget_s):
-    """From the cache if it had at least half this budget; else pairs of doubling spp that fit."""
+    """From the cache if it had at least half of `budget_s` seconds; else pairs of doubling spp that
+    fit, from 1 spp on, so that a slow scene stays within them too."""
     path = os.path.join(cache, key_of(scene, renderer) + ".npz")
-    halves, spp, spent, level = [0.0, 0.0], 0, 0.0, 16
+    halves, spp, spent, level = [0.0, 0.0], 0, 0.0, 1
     if os.path.exists(path):
         with np.load(path) as kept:
             halves, spp = [kept["a"], kept["b"]], int(kept["spp"])

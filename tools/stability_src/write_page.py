@@ -12,11 +12,12 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.dirname(HERE)]
 from curve_svg import curve_svg  # noqa: E402
 from map_svg import map_svg  # noqa: E402
+from page_src.files import write  # noqa: E402
 from results import Results, power  # noqa: E402
 
 STYLE = """
@@ -126,22 +127,6 @@ def page(results, curves):
     for axis in results.axes:
         out += axis_section(axis, curves[axis.name])
     return "\n".join(out + ["</body></html>"]) + "\n"
-
-
-def write(path, text):
-    """The file appears whole or not at all."""
-    folder = os.path.dirname(path)
-    handle, temporary = tempfile.mkstemp(dir=folder, prefix=".", suffix=".tmp")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
-        mask = os.umask(0)
-        os.umask(mask)
-        os.chmod(temporary, 0o666 & ~mask)
-        os.replace(temporary, path)
-    except BaseException:
-        os.unlink(temporary)
-        raise
 
 
 def write_all(folder, png):
