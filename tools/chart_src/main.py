@@ -12,7 +12,9 @@ import time
 
 sys.path[0] = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
-from chart_src import analysis, measure, options, reference, report_svg  # noqa: E402
+from chart_src import analysis, measure, options, reference  # noqa: E402
+from chart_src.error_svg import error_svg  # noqa: E402
+from chart_src.page import page  # noqa: E402
 from chart_src.progress import Progress  # noqa: E402
 from page_src.files import write  # noqa: E402
 
@@ -106,9 +108,10 @@ def report(o, version, results, complete):
              "seeds": o.seeds, "time_s": o.time, "complete": complete, "scenes": results,
              "methods": [{"name": m.name, "choices": m.choices} for m in o.chosen]}
     write(os.path.join(o.out, "chart.json"), json.dumps(table) + "\n")
+    write(os.path.join(o.out, "chart.html"), page(table))
     for r in results:
         if r["summary"]:
-            write(os.path.join(o.out, r["name"] + ".svg"), report_svg.chart(r))
+            write(os.path.join(o.out, r["name"] + ".svg"), error_svg(r))
             print(analysis.text(r))
 
 
