@@ -2,7 +2,7 @@
 import json
 import math
 
-SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+from page_src.numbers import power
 
 
 class Method:
@@ -86,21 +86,6 @@ class Axis:
             return 1 if number < 1e-4 else 2 if number < 1e-2 else 3 if number < 0.1 else 4
         ratio = number / self.limit
         return 1 if ratio < 10 else 2 if ratio < 100 else 3 if ratio < 1e4 else 4
-
-
-def power(number, digits=3):
-    """1e6 as 10⁶, others with so many digits."""
-    if number > 0:
-        exponent = math.log10(number)
-        if (number >= 1e4 or number < 1e-2) and abs(exponent - round(exponent)) < 1e-9:
-            return "10" + str(round(exponent)).translate(SUPERSCRIPTS)
-    text = f"{number:.{digits}g}"
-    if 1e-3 <= abs(number) < 1e5 or number == 0:
-        return f"{float(text):.6g}"
-    if "e" in text:
-        digits, exponent = text.split("e")
-        return digits + "·10" + str(int(exponent)).translate(SUPERSCRIPTS)
-    return text
 
 
 class Results:

@@ -12,25 +12,17 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.dirname(HERE)]
 from curve_svg import curve_svg  # noqa: E402
 from map_svg import map_svg  # noqa: E402
-from results import Results, power  # noqa: E402
+from page_src.files import write  # noqa: E402
+from page_src.numbers import power  # noqa: E402
+from page_src.style import BASE  # noqa: E402
+from results import Results  # noqa: E402
 
-STYLE = """
-:root{color-scheme:light dark;--text:#222;--paper:#fff;--soft:#666;--line:#bbb;--link:#0b57a4;--red:#b00000;
---l1:#fdebd3;--l2:#f9c188;--l3:#e9832f;--l4:#8c2d04;--t3:#111;--t4:#fff}
-@media (prefers-color-scheme:dark){:root{--text:#ddd;--paper:#181818;--soft:#aaa;--line:#555;--link:#8fc4ff;--red:#ff6b6b;
---l1:#3a2714;--l2:#69400f;--l3:#b86414;--l4:#ffb366;--t3:#fff;--t4:#111}}
-body{font:16px/1.45 system-ui,sans-serif;color:var(--text);background:var(--paper);max-width:62rem;margin:0 auto;padding:1rem}
-a{color:var(--link)}h2{margin:2rem 0 .4rem}h3{margin:2rem 0 .4rem}.soft{color:var(--soft);font-size:.9rem}
-.scroll{overflow-x:auto}table{border-collapse:collapse;font-variant-numeric:tabular-nums}
-th,td{border:1px solid var(--line);padding:.2rem .5rem;text-align:center;white-space:nowrap}
-th[scope=row]{text-align:right;font-weight:400;position:sticky;left:0;background:var(--paper)}
-th.default{font-weight:700}td a{color:inherit;text-decoration:none;display:block}td a:hover,td a:focus{text-decoration:underline}
-td.none{border-color:transparent}.l1{background:var(--l1)}.l2{background:var(--l2)}
+STYLE = BASE + """td.none{border-color:transparent}.l1{background:var(--l1)}.l2{background:var(--l2)}
 .l3{background:var(--l3);color:var(--t3)}.l4{background:var(--l4);color:var(--t4)}
 .bad{outline:3px solid var(--red);outline-offset:-3px}.red{color:var(--red);font-weight:700}
 figure{margin:0;overflow-x:auto}figure svg{width:100%;min-width:32rem;height:auto;max-width:44rem}summary{cursor:pointer}
@@ -126,22 +118,6 @@ def page(results, curves):
     for axis in results.axes:
         out += axis_section(axis, curves[axis.name])
     return "\n".join(out + ["</body></html>"]) + "\n"
-
-
-def write(path, text):
-    """The file appears whole or not at all."""
-    folder = os.path.dirname(path)
-    handle, temporary = tempfile.mkstemp(dir=folder, prefix=".", suffix=".tmp")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
-        mask = os.umask(0)
-        os.umask(mask)
-        os.chmod(temporary, 0o666 & ~mask)
-        os.replace(temporary, path)
-    except BaseException:
-        os.unlink(temporary)
-        raise
 
 
 def write_all(folder, png):
