@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+"""tools/chart as a user meets it: a tiny run's JSON and page, its time, a signal, mistakes.
+
+    chart_command_test.py RENDERER MAIN.py SCENE.xml
+
+Skipped (77) without numpy.
+"""
+import html.parser
+import importlib.util
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+RENDERER = MAIN = SCENE = ""
+VOID = {"meta"}
+
+
+class Nesting(html.parser.HTMLParser):
+    """Raises unless every element is closed in order; counts them."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.count = [], {}
+        self.feed(text)
+        self.close()
+        if self.open:
+            raise ValueError(f"left open: {self.open}")
+
+    def handle_starttag(self, tag, attrs):
+        self.count[tag] = self.count.get(tag, 0) + 1
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        self.count[tag] = self.count.get(tag, 0) + 1
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            raise ValueError(f"</{tag}> closes nothing")
+
+
+def read(*path):
+    with open(os.path.join(*path), encoding="utf-8") as file:
+        return file.read()
+
+
+class ChartCommand(unittest.TestCase):
+    def setUp(self):
+        self.holder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.holder.cleanup)
+        self.out = os.path.join(self.holder.name, "out")
+
+    def command(self, *arguments):
+        return [sys.executable, MAIN, "--renderer", RENDERER, "--cache", os.path.join(self.holder.name, "cache"),
+                "--out", self.out, "--width", "8", *arguments]
+
+    def run_chart(self, *arguments):
+        return subprocess.run(self.command(*arguments), capture_output=True, text=True, timeout=60, check=False)
+
+    def test_tiny_run_tells_everything_in_json_and_page(self):
+        done = self.run_chart("--quick", "--time", "2.5", "--max-spp", "4", "--methods", "default", "worst",
+                              "sampler=independent", "--", SCENE)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("cornell-box: reference\n", done.stderr)  # progress, in lines
+        self.assertNotIn("\r", done.stderr)
+        text = read(self.out, "chart.json")
+        self.assertNotIn(os.path.dirname(MAIN), text)  # no paths of this machine
+        data = json.loads(text)
+        self.assertEqual((data["complete"], data["width"], data["seeds"]), (True, 8, 2))  # --quick leaves --width
+        self.assertEqual([m["name"] for m in data["methods"]], ["default", "worst", "sampler=independent"])
+        self.assertEqual(data["methods"][1]["choices"]["estimator"], "bsdf")
+        scene, = data["scenes"]
+        self.assertGreater(scene["reference"]["spp"], 16)
+        self.assertEqual(len(scene["runs"]), 3 * 3 * 2)  # methods, levels, seeds
+        for run in scene["runs"]:
+            self.assertEqual(run["samples"], 8 * 8 * run["spp"])
+            self.assertTrue(run["wall_s"] > 0 and run["cpu_s"] > 0 and run["rays"] > 0 and run["memory_bytes"] > 0)
+            self.assertTrue(run["mse_raw"] >= run["mse"] and run["relmse"] > 0)
+        for row in scene["summary"]:
+            mean, low, high = row["efficiency"]
+            self.assertTrue(0 < low <= mean <= high)
+            slope, low, high = row["slope"]  # of 64 pixels at 4 spp: any number may come out
+            self.assertTrue(low <= slope <= high)
+        self.check_page(["default", "worst", "sampler=independent"])
+        self.assertEqual(sorted(os.listdir(self.out)), ["chart.html", "chart.json", "cornell-box.svg"])
+
+    def check_page(self, methods):
+        page = read(self.out, "chart.html")
+        count = Nesting(page).count
+        self.assertEqual((count["svg"], count["table"], count["tr"]), (1, 1, 1 + len(methods)))
+        for m in methods:
+            self.assertIn(f"<title>{m}</title>", page)
+        self.assertIn("prefers-color-scheme:dark", page)
+        for outside in ("http://", "https://", "src=", "<link"):
+            self.assertNotIn(outside, page.replace("http://www.w3.org/2000/svg", ""))
+        dashes = {p.split('stroke-dasharray="')[1].split('"')[0] if "stroke-dasharray" in p else ""
+                  for p in page.split("\n") if 'class="curve ' in p}
+        self.assertEqual(len(dashes), len(methods))  # told apart without colour
+        self.assertIn('class="front"', page)
+
+    def test_signals_keep_what_is_done(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with subprocess.Popen(self.command("--time", "12", "--methods", "default", "worst", "--", SCENE),
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+                for line in process.stderr:
+                    if "4 spp" in line:  # two levels are there
+                        process.send_signal(number)
+                        break
+                process.communicate(timeout=20)
+            self.assertEqual(process.returncode, 128 + number)
+            data = json.loads(read(self.out, "chart.json"))
+            self.assertFalse(data["complete"])
+            self.assertGreaterEqual(len(data["scenes"][0]["runs"]), 2 * 2 * 4)
+            self.check_page(["default", "worst"])
+            self.assertIn("Stopped before its end", read(self.out, "chart.html"))
+            os.remove(os.path.join(self.out, "chart.json"))
+
+    def test_time_bounds_the_whole(self):
+        begun = time.monotonic()
+        done = self.run_chart("--time", "2", "--width", "64", "-q", "--", SCENE, SCENE)
+        took = time.monotonic() - begun
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertLess(took, 2 + 2)  # starting Python, one render, drawing
+        self.assertGreater(took, 0.5)
+
+    def test_mistakes_get_one_line_and_leave_what_was_there(self):
+        os.mkdir(self.out)
+        kept = os.path.join(self.out, "chart.json")
+        with open(kept, "w", encoding="utf-8") as file:
+            file.write("earlier")
+        broken = os.path.join(self.holder.name, "broken.xml")
+        with open(broken, "w", encoding="utf-8") as file:
+            file.write("<scene")
+        for code, arguments in ((2, ["--time", "0"]), (2, ["--time", "nan"]), (2, ["--seeds", "-1"]),
+                                (2, ["--bad"]), (2, ["--methods", "rr=fast"]), (2, ["--methods", "none"]),
+                                (3, ["nothing.xml"]), (3, [self.out]), (3, [broken]),
+                                (5, ["--out", os.path.join(kept, "in"), SCENE]), (5, ["--out", kept, SCENE]),
+                                (6, ["--renderer", os.path.join(self.out, "none"), SCENE])):
+            with self.subTest(arguments=arguments):
+                done = self.run_chart("-q", *arguments)
+                self.assertEqual(done.returncode, code, done.stderr)
+                self.assertRegex(done.stderr, r"\A[^\n]*error: [^\n]+\n\Z")
+                self.assertEqual(done.stdout, "")
+                self.assertEqual(read(kept), "earlier")
+                self.assertEqual(os.listdir(self.out), ["chart.json"])
+
+
+if __name__ == "__main__":
+    if importlib.util.find_spec("numpy") is None:
+        print("SKIPPED: needs python3-numpy")
+        sys.exit(77)
+    RENDERER, MAIN, SCENE = map(os.path.abspath, sys.argv[1:4])
+    unittest.main(argv=sys.argv[:1])
