@@ -7,10 +7,9 @@
 #include "tools/compare_options.h"
 #include "tools/compare_picture.h"
 #include "tools/compare_report.h"
+#include "tools/exit_code.h"
 
 #include <cstdio>
-#include <exception>
-#include <fmt/format.h>
 
 namespace plumb {
 namespace {
@@ -87,15 +86,8 @@ int run(const CompareOptions& options) {
 } // namespace plumb
 
 int main(int argc, char** argv) {
-    constexpr int internal_error = 70;
-    try {
+    return plumb::exit_code_of([&] {
         const auto parsed = plumb::parse_compare_options(argc, argv);
         return parsed.exit_code ? *parsed.exit_code : plumb::run(parsed.options);
-    } catch (const plumb::SceneError& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return error.exit_code();
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "internal error: {}\n", error.what());
-        return internal_error;
-    }
+    });
 }

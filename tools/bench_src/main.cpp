@@ -7,13 +7,13 @@
 #include "tools/bench_src/cpu.h"
 #include "tools/bench_src/options.h"
 #include "tools/bench_src/report.h"
+#include "tools/exit_code.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <fmt/format.h>
 #include <iostream>
-#include <new>
 
 namespace plumb::bench {
 namespace {
@@ -111,18 +111,8 @@ int run(const Options& options) {
 } // namespace plumb::bench
 
 int main(int argc, char** argv) {
-    constexpr int resources = 6, internal_error = 70;
-    try {
+    return plumb::exit_code_of([&] {
         const auto parsed = plumb::bench::parse_options(argc, argv);
         return parsed.exit_code ? *parsed.exit_code : plumb::bench::run(parsed.options);
-    } catch (const plumb::SceneError& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return error.exit_code();
-    } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "error: out of memory\n");
-        return resources;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "internal error: {}\n", error.what());
-        return internal_error;
-    }
+    });
 }

@@ -4,13 +4,12 @@
 #include "renderer/scene/error.h"
 #include "tools/bench_src/cpu.h"
 #include "tools/bench_src/progress.h"
+#include "tools/exit_code.h"
 #include "tools/stability_src/options.h"
 #include "tools/stability_src/report.h"
 
 #include <cstdio>
-#include <exception>
 #include <fmt/format.h>
-#include <new>
 #include <unistd.h>
 
 namespace plumb::stability {
@@ -67,18 +66,8 @@ int run(const Options& options) {
 } // namespace plumb::stability
 
 int main(int argc, char** argv) {
-    constexpr int resources = 6, internal_error = 70;
-    try {
+    return plumb::exit_code_of([&] {
         const auto parsed = plumb::stability::parse_options(argc, argv);
         return parsed.exit_code ? *parsed.exit_code : plumb::stability::run(parsed.options);
-    } catch (const plumb::SceneError& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return error.exit_code();
-    } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "error: out of memory\n");
-        return resources;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "internal error: {}\n", error.what());
-        return internal_error;
-    }
+    });
 }
