@@ -1,8 +1,9 @@
 """tools/chart: the rounds of measurements, chart.json and the pictures.
 
-Exit codes: 0 done, 2 usage, 3 scene, 5 output, 6 no renderer, 128+n stopped by signal n (what was
+Exit codes: 0 done, 2 usage, 3 scene, 4 results that cannot be read, 5 output, 6 no renderer, 128+n stopped by signal n (what was
 measured is written), else the renderer's own.
 """
+import functools
 import json
 import os
 import signal
@@ -12,13 +13,15 @@ import time
 
 sys.path[0] = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
-from chart_src import analysis, measure, options, reference  # noqa: E402
-from chart_src.error_svg import error_svg  # noqa: E402
+from chart_src import accelerators, analysis, measure, options, png, reference  # noqa: E402
+from chart_src.accelerator_svg import accelerator_svg  # noqa: E402
+from chart_src.error_svg import drawn, error_svg  # noqa: E402
 from chart_src.page import page  # noqa: E402
 from chart_src.progress import Progress  # noqa: E402
 from page_src.files import write  # noqa: E402
 
 REFERENCE_SHARE = 0.25  # of a scene's time
+PICTURE_S = 0.4  # to draw one, kept free of `--time`, but never more than a quarter of it
 
 
 class Stopped(KeyboardInterrupt):
@@ -46,7 +49,8 @@ def measure_scene(scene, o, renderer, end, result, progress):
     seeds outside, methods inside, so that a disturbance hits all alike."""
     progress.stage(f"{result['name']}: reference")
     ref = reference.make_reference(scene, renderer, o.cache, REFERENCE_SHARE * (end - time.monotonic()))
-    result["reference"] = {"spp": ref.spp, "seconds": ref.seconds, "mse": float(ref.variance.mean())}
+    result["reference"] = {"spp": ref.spp, "seconds": ref.seconds, "mse": float(ref.variance.mean()),
+                           "flip": ref.flip_noise}
     took, spp = {}, 1
     while spp <= o.max_spp:
         fits, left = [], end - time.monotonic()
@@ -75,13 +79,15 @@ def measure_scene(scene, o, renderer, end, result, progress):
 def measure_all(o, results, progress):
     """Exit code; what was measured until then stands in `results`."""
     start = time.monotonic()
+    pictures = len(o.scenes) * len(analysis.MEASURES) + 1
+    measuring = o.time - min(PICTURE_S * pictures if png.available() else 0.0, o.time / 4)
     with tempfile.TemporaryDirectory() as folder:
         renderer = measure.Renderer(o.renderer, folder, o.threads, o.width)
         try:
             for i, scene in enumerate(o.scenes):
                 name = os.path.splitext(os.path.basename(scene))[0]
                 results.append({"name": name, "runs": []})
-                end = start + o.time * (i + 1) / len(o.scenes)
+                end = start + measuring * (i + 1) / len(o.scenes)
                 measure_scene(scene, o, renderer, end, results[-1], progress)
             return 0
         except Stopped as stopped:
@@ -97,7 +103,19 @@ def cpu_model():
         return next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "unknown")
 
 
-def report(o, version, results, complete):
+def pictures_of(table):
+    """(name, SVG, what draws the same with matplotlib) of everything that there is to draw."""
+    for r in table["scenes"]:
+        for measure in analysis.MEASURES:
+            if drawn(r["summary"], measure):
+                name = r["name"] + ("" if measure == "mse" else "-" + measure)
+                yield name, error_svg(r, measure), functools.partial(png.error_png, r, measure)
+    if table["accelerators"]["points"]:
+        data = table["accelerators"]
+        yield "accelerators", accelerator_svg(data), functools.partial(png.accelerator_png, data)
+
+
+def report(o, version, results, second, complete):
     """Writes everything; nothing where nothing was measured."""
     results = [r for r in results if r["runs"]]
     for r in results:
@@ -106,13 +124,26 @@ def report(o, version, results, complete):
         return
     table = {"renderer": version, "cpu": cpu_model(), "clock": o.clock, "threads": o.threads, "width": o.width,
              "seeds": o.seeds, "time_s": o.time, "complete": complete, "scenes": results,
-             "methods": [{"name": m.name, "choices": m.choices} for m in o.chosen]}
+             "methods": [{"name": m.name, "choices": m.choices} for m in o.chosen], "accelerators": second}
     write(os.path.join(o.out, "chart.json"), json.dumps(table) + "\n")
     write(os.path.join(o.out, "chart.html"), page(table))
+    for name, svg, draw in pictures_of(table):
+        write(os.path.join(o.out, name + ".svg"), svg)
+        if png.available():
+            write(os.path.join(o.out, name + ".png"), draw())
     for r in results:
         if r["summary"]:
-            write(os.path.join(o.out, r["name"] + ".svg"), error_svg(r))
             print(analysis.text(r))
+
+
+def second_chart(o):
+    """Its numbers; no points, and why, where there is nothing to compare."""
+    bench = o.bench or accelerators.widest(o.results)
+    stability = o.stability or next(iter(accelerators.results(o.results, "stability")), None)
+    if not bench or not stability:
+        return {"points": [], "why": "no results of tools/bench and tools/stability"}
+    second = accelerators.compare(accelerators.load(bench), accelerators.load(stability))
+    return second if second["points"] else {"points": [], "why": "tools/bench and tools/stability share no accelerator"}
 
 
 def main(arguments):
@@ -126,6 +157,13 @@ def main(arguments):
     except OSError as error:
         print(f"{o.renderer}: error: cannot run: {error.strerror}", file=sys.stderr)
         return 6
+    try:
+        second = second_chart(o)
+    except accelerators.InputError as error:
+        print(error, file=sys.stderr)
+        return 4
+    if not png.available():
+        print("warning: no PNG: python3-matplotlib is not installed", file=sys.stderr)
     progress, results = Progress(o.quiet), []
     listen()
     try:
@@ -133,7 +171,7 @@ def main(arguments):
         tempfile.TemporaryFile(dir=o.out).close()
         code = measure_all(o, results, progress)
         progress.end()
-        report(o, version, results, code == 0)
+        report(o, version, results, second, code == 0)
     except OSError as error:
         print(f"{error.filename or o.out}: error: cannot write: {error.strerror}", file=sys.stderr)
         return 5

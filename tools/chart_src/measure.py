@@ -67,12 +67,13 @@ class Renderer:
 
 
 def errors_of(picture, reference):
-    """MSE and relMSE = mean(d^2 / (ref^2 + 0.01)), both less the reference's own variance."""
+    """MSE and relMSE = mean(d^2 / (ref^2 + 0.01)), both less the reference's own variance; FLIP, which
+    nothing can be taken off: the reference's `flip_noise` says where it stops to tell."""
     square = (picture - reference.mean) ** 2
     weight = 1 / (reference.mean ** 2 + 0.01)
     return {"mse": float((square - reference.variance).mean()), "mse_raw": float(square.mean()),
             "relmse": float(((square - reference.variance) * weight).mean()),
-            "outlier_share": outlier_share(square)}
+            "outlier_share": outlier_share(square), "flip": reference.flip.mean(picture)}
 
 
 def outlier_share(square):

@@ -50,7 +50,11 @@ def parse(arguments):
     p.add_argument("--renderer", default=os.path.join(ROOT, "build/bin/renderer"), metavar="PROGRAM")
     p.add_argument("--cache", default=os.path.join(ROOT, "build/chart-references"), metavar="FOLDER",
                    help="keeps the references [build/chart-references]")
+    p.add_argument("--bench", metavar="FILE", help="JSON of tools/bench: speeds for the second chart [the one in "
+                   "tools/results with most accelerators]")
+    p.add_argument("--stability", metavar="FILE", help="JSON of tools/stability: failures for it [tools/results]")
     o = p.parse_args(arguments)
+    o.results = os.path.join(ROOT, "tools/results")
     for key, values in DEFAULTS.items():
         if getattr(o, key) is None:
             setattr(o, key, values[o.quick])

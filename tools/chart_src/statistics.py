@@ -28,6 +28,17 @@ def geometric_interval(values):
     return tuple(None if v is None else math.exp(v) for v in mean_interval(np.log(values)))
 
 
+def rate_interval(failures, trials):
+    """(low, high) at 95 % of a rate (Wilson 1927). No failure: from 0 to the rate of which none would be
+    seen with a chance of 5 %, the rule of three."""
+    if failures == 0:
+        return 0.0, 1 - 0.05 ** (1 / trials)
+    z = 1.95996
+    middle = (failures + z * z / 2) / (trials + z * z)
+    half = z / (trials + z * z) * math.sqrt(failures * (trials - failures) / trials + z * z / 4)
+    return middle - half, middle + half
+
+
 def slope(x, y):
     """Least-squares slope of log y over log x."""
     x, y = np.log(np.asarray(x, float)), np.log(np.asarray(y, float))
