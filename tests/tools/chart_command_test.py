@@ -82,6 +82,7 @@ class ChartCommand(unittest.TestCase):
         for run in scene["runs"]:
             self.assertEqual(run["samples"], 8 * 8 * run["spp"])
             self.assertTrue(run["wall_s"] > 0 and run["cpu_s"] > 0 and run["rays"] > 0 and run["memory_bytes"] > 0)
+            self.assertLess(run["cpu_s"], 1.1 * run["wall_s"])  # one thread; starting is not counted
             self.assertTrue(run["mse_raw"] >= run["mse"] and run["relmse"] > 0)
             self.assertTrue(0 < scene["reference"]["flip"] < 1 and 0 < run["flip"] < 1)
         for row in scene["summary"]:
@@ -117,6 +118,26 @@ class ChartCommand(unittest.TestCase):
                   for p in page.split("\n") if 'class="curve ' in p}
         self.assertEqual(len(dashes), len(methods))  # told apart without colour
         self.assertIn('class="front"', page)
+
+    def test_scenes_can_be_added_to_an_earlier_run(self):
+        other = os.path.join(self.holder.name, "other.xml")
+        with open(SCENE, encoding="utf-8") as file:
+            text = file.read()
+        with open(other, "w", encoding="utf-8") as file:
+            file.write(text.replace('"meshes/', '"' + os.path.join(os.path.dirname(SCENE), "meshes/")))
+        common = ("--quick", "--max-spp", "2", "--time", "5", "--add", "-q")
+        for methods, scene in (("default", SCENE), ("worst", other), ("default", SCENE)):
+            done = self.run_chart(*common, "--methods", methods, "--", scene)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        data = json.loads(read(self.out, "chart.json"))
+        self.assertEqual([s["name"] for s in data["scenes"]], ["cornell-box", "other"])
+        self.assertEqual([{r["method"] for r in s["runs"]} for s in data["scenes"]], [{"default"}, {"worst"}])
+        self.assertEqual([m["name"] for m in data["methods"]], ["default", "worst"])
+        kept = read(self.out, "chart.json")
+        done = self.run_chart(*common, "--seeds", "3", "--", SCENE)
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("chart.json: error: --add: another seeds (got '2', expected '3')\n", done.stderr)
+        self.assertEqual(read(self.out, "chart.json"), kept)
 
     def test_signals_keep_what_is_done(self):
         for number in (signal.SIGINT, signal.SIGTERM):

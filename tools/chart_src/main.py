@@ -1,10 +1,8 @@
-"""tools/chart: the rounds of measurements, chart.json and the pictures.
+"""tools/chart: the rounds of measurements, then chart.json and the pictures.
 
 Exit codes: 0 done, 2 usage, 3 scene, 4 results that cannot be read, 5 output, 6 no renderer, 128+n stopped by signal n (what was
 measured is written), else the renderer's own.
 """
-import functools
-import json
 import os
 import signal
 import sys
@@ -13,12 +11,9 @@ import time
 
 sys.path[0] = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
-from chart_src import accelerators, analysis, measure, options, png, reference  # noqa: E402
-from chart_src.accelerator_svg import accelerator_svg  # noqa: E402
-from chart_src.error_svg import drawn, error_svg  # noqa: E402
-from chart_src.page import page  # noqa: E402
+from chart_src import accelerators, analysis, measure, options, png, reference, report  # noqa: E402
 from chart_src.progress import Progress  # noqa: E402
-from page_src.files import write  # noqa: E402
+from chart_src.schedule import fitting  # noqa: E402
 
 REFERENCE_SHARE = 0.25  # of a scene's time
 PICTURE_S = 0.4  # to draw one, kept free of `--time`, but never more than a quarter of it
@@ -51,14 +46,10 @@ def measure_scene(scene, o, renderer, end, result, progress):
     ref = reference.make_reference(scene, renderer, o.cache, REFERENCE_SHARE * (end - time.monotonic()))
     result["reference"] = {"spp": ref.spp, "seconds": ref.seconds, "mse": float(ref.variance.mean()),
                            "flip": ref.flip_noise}
-    took, spp = {}, 1
+    took, spp, all_s = {}, 1, end - time.monotonic()
     while spp <= o.max_spp:
-        fits, left = [], end - time.monotonic()
-        for m in o.chosen:
-            need = 2.2 * took.get((m.name, spp // 2), 0.0 if spp == 1 else 1e30)
-            if need <= left:
-                fits.append(m)
-                left -= need
+        names = fitting([m.name for m in o.chosen], took, spp, o.max_spp, end - time.monotonic(), all_s)
+        fits = [m for m in o.chosen if m.name in names]
         if not fits:
             return
         progress.stage(f"{result['name']}: {spp} spp, {len(fits)} of {len(o.chosen)} methods")
@@ -98,54 +89,6 @@ def measure_all(o, results, progress):
             return error.code
 
 
-def cpu_model():
-    with open("/proc/cpuinfo", encoding="utf-8") as file:
-        return next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "unknown")
-
-
-def pictures_of(table):
-    """(name, SVG, what draws the same with matplotlib) of everything that there is to draw."""
-    for r in table["scenes"]:
-        for measure in analysis.MEASURES:
-            if drawn(r["summary"], measure):
-                name = r["name"] + ("" if measure == "mse" else "-" + measure)
-                yield name, error_svg(r, measure), functools.partial(png.error_png, r, measure)
-    if table["accelerators"]["points"]:
-        data = table["accelerators"]
-        yield "accelerators", accelerator_svg(data), functools.partial(png.accelerator_png, data)
-
-
-def report(o, version, results, second, complete):
-    """Writes everything; nothing where nothing was measured."""
-    results = [r for r in results if r["runs"]]
-    for r in results:
-        r["summary"] = analysis.summary(r["runs"])
-    if not results:
-        return
-    table = {"renderer": version, "cpu": cpu_model(), "clock": o.clock, "threads": o.threads, "width": o.width,
-             "seeds": o.seeds, "time_s": o.time, "complete": complete, "scenes": results,
-             "methods": [{"name": m.name, "choices": m.choices} for m in o.chosen], "accelerators": second}
-    write(os.path.join(o.out, "chart.json"), json.dumps(table) + "\n")
-    write(os.path.join(o.out, "chart.html"), page(table))
-    for name, svg, draw in pictures_of(table):
-        write(os.path.join(o.out, name + ".svg"), svg)
-        if png.available():
-            write(os.path.join(o.out, name + ".png"), draw())
-    for r in results:
-        if r["summary"]:
-            print(analysis.text(r))
-
-
-def second_chart(o):
-    """Its numbers; no points, and why, where there is nothing to compare."""
-    bench = o.bench or accelerators.widest(o.results)
-    stability = o.stability or next(iter(accelerators.results(o.results, "stability")), None)
-    if not bench or not stability:
-        return {"points": [], "why": "no results of tools/bench and tools/stability"}
-    second = accelerators.compare(accelerators.load(bench), accelerators.load(stability))
-    return second if second["points"] else {"points": [], "why": "tools/bench and tools/stability share no accelerator"}
-
-
 def main(arguments):
     o = options.parse(arguments)
     for scene in o.scenes:
@@ -158,7 +101,7 @@ def main(arguments):
         print(f"{o.renderer}: error: cannot run: {error.strerror}", file=sys.stderr)
         return 6
     try:
-        second = second_chart(o)
+        second, before = report.second_chart(o), report.earlier(o, version)
     except accelerators.InputError as error:
         print(error, file=sys.stderr)
         return 4
@@ -171,7 +114,7 @@ def main(arguments):
         tempfile.TemporaryFile(dir=o.out).close()
         code = measure_all(o, results, progress)
         progress.end()
-        report(o, version, results, second, code == 0)
+        report.write_all(o, version, before, results, second, code == 0)
     except OSError as error:
         print(f"{error.filename or o.out}: error: cannot write: {error.strerror}", file=sys.stderr)
         return 5

@@ -40,6 +40,7 @@ def parse(arguments):
                    help="seconds for everything, shared evenly by the scenes; up to a quarter of a scene's "
                         "share makes its reference, which is kept for later runs " + said("time"))
     p.add_argument("--out", default="chart", metavar="FOLDER", help="receives everything [chart]")
+    p.add_argument("--add", action="store_true", help="keep the other scenes that FOLDER has from an earlier run")
     p.add_argument("--seeds", type=positive(int), metavar="N", help="independent runs of each point " + said("seeds"))
     p.add_argument("--max-spp", type=positive(int), metavar="N", help="samples a pixel, at most " + said("max_spp"))
     p.add_argument("--threads", type=positive(int), default=1, metavar="N", help="of the renderer [1]")

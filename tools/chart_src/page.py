@@ -30,9 +30,9 @@ def times(value):
     """The factor of a method against the default."""
     if not value:
         return "–"
-    text = f"{value['times']:.3g} ×"
+    text = f"{power(value['times'])} ×"
     if value["low"] is not None:
-        text += f" ({value['low']:.3g} to {value['high']:.3g})"
+        text += f" ({power(value['low'])} to {power(value['high'])})"
     return text + (" *" if value["extrapolated"] else "")
 
 
@@ -62,9 +62,9 @@ def headline(result):
     worst = next((r["factor"] for r in result["summary"] if r["method"] == "worst" and r["factor"]), None)
     if not worst:
         return []
-    between = f" (95 %: {worst['low']:.3g} to {worst['high']:.3g})" if worst["low"] is not None else ""
+    between = f" (95 %: {power(worst['low'])} to {power(worst['high'])})" if worst["low"] is not None else ""
     far = ", extrapolated" if worst["extrapolated"] else ""
-    return [f"<p>The worst method takes <b>{worst['times']:.3g} times</b>{between} as long as the default "
+    return [f"<p>The worst method takes <b>{power(worst['times'])} times</b>{between} as long as the default "
             f"for a mean squared error of {power(worst['error'])}{far}.</p>"]
 
 
