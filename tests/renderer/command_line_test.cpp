@@ -207,6 +207,24 @@ TEST_F(CommandLine, ExplainNamesTheContentsAndTheKernel) {
     EXPECT_EQ(file_count(), 1u);
 }
 
+TEST_F(CommandLine, ExplainSaysWhatEndsTheSamples) {
+    const struct {
+        const char* flags;
+        const char* expected;
+    } cases[] = {
+        {"--spp 9", "samples    9 a pixel, "},
+        {"--target-error 0.01", "samples    until the error is 1 %, at most 16777216 a pixel, "},
+        {"--time-limit 30s --spp 64", "samples    until 30.00 s have passed, at most 64 a pixel, "},
+        {"--target-error 0.05 --time-limit 500ms",
+         "samples    until the error is 5 % or 500 ms have passed, at most 16777216 a pixel, "},
+    };
+    for (const auto& c : cases) {
+        const Outcome run = renderer(std::string("--explain ") + c.flags + " box.xml");
+        EXPECT_EQ(run.exit_code, 0);
+        EXPECT_NE(run.output.find(c.expected), std::string::npos) << run.output;
+    }
+}
+
 TEST_F(CommandLine, AFailedWriteLeavesWhatStoodThere) {
     write("a.exr", "precious");
     const Outcome full = renderer("-D spp=1 -o a.exr box.xml", "ulimit -f 0 &&");
