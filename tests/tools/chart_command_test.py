@@ -65,7 +65,7 @@ class ChartCommand(unittest.TestCase):
         return subprocess.run(self.command(*arguments), capture_output=True, text=True, timeout=300, check=False)
 
     def test_tiny_run_tells_everything_in_json_and_page(self):
-        done = self.run_chart("--quick", "--time", "10", "--max-spp", "4", "--methods", "default", "worst",
+        done = self.run_chart("--quick", "--time", "10", "--max-spp", "4", "--methods", "default,worst",
                               "sampler=independent", "--", SCENE)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("cornell-box: reference\n", done.stderr)  # progress, in lines

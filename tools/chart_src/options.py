@@ -35,7 +35,8 @@ def parse(arguments):
     """Options, with the chosen methods and the scenes' paths; exits with 2 on a mistake."""
     p = Parser(prog="chart", allow_abbrev=False, description="Error against time of the renderer's methods.")
     p.add_argument("scenes", nargs="*", metavar="SCENE.xml", help="default: " + ", ".join(SCENES))
-    p.add_argument("--methods", nargs="+", default=["*"], help="names with *, or KEY=VALUE+KEY=VALUE")
+    p.add_argument("--methods", nargs="+", default=["*"], help="names, comma-separated, with * for any characters, or "
+                   "KEY=VALUE+KEY=VALUE [all]")
     p.add_argument("--time", type=positive(float), metavar="S",
                    help="seconds for everything, shared evenly by the scenes; up to a quarter of a scene's "
                         "share makes its reference, which is kept for later runs " + said("time"))
@@ -60,7 +61,7 @@ def parse(arguments):
         if getattr(o, key) is None:
             setattr(o, key, values[o.quick])
     try:
-        o.chosen = methods.select(o.methods)
+        o.chosen = methods.select([name for word in o.methods for name in word.split(",")])
     except ValueError as error:
         p.error(f"--methods: {error}")
     o.scenes = o.scenes or [os.path.join(ROOT, "scenes", s + ".xml") for s in SCENES]
