@@ -80,7 +80,7 @@ template <TriangleTest Test, class Tally = NoTally>
     ChildRef current = ChildRef::node(0);
     for (;;) {
         if (!current.is_leaf()) {
-            const SahNode& node = view.nodes[current.first];
+            const SahNode node = view.nodes[current.first]; // whole: four wide loads
             tally.node();
             const ChildOverlap overlap = test(node);
             if (overlap.mask != 0) {
@@ -132,7 +132,7 @@ template <TriangleTest Test, class Tally = NoTally>
     ChildRef current = ChildRef::node(0);
     for (;;) {
         if (!current.is_leaf()) {
-            const SahNode& node = view.nodes[current.first];
+            const SahNode node = view.nodes[current.first]; // whole: four wide loads
             tally.node();
             const unsigned mask = test(node).mask;
             if (mask != 0) {
