@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace plumb {
 namespace {
@@ -23,51 +24,62 @@ class LeafSplitter {
 
     void run() {
         const std::size_t count = tree_.nodes.size();
+        tree_.nodes.reserve(2 * tree_.primitives.size());
         for (std::size_t i = 0; i < count; ++i) {
             const BinaryNode leaf = tree_.nodes[i];
             if (leaf.count < 2)
                 continue;
-            size_ = leaf.count;
-            for (std::uint32_t k = 0; k < size_; ++k) {
+            for (std::uint32_t k = 0; k < leaf.count; ++k) {
                 const PrimitiveNumber number = tree_.primitives[leaf.first + k];
                 const PrimitiveNumbers::Id id = numbers_.id(number);
                 const Bounds own = primitive_bounds(geometry_, id.geometry, id.primitive);
                 members_[k] = {
                     number, {max(own.lower, leaf.bounds.lower), min(own.upper, leaf.bounds.upper)}};
             }
-            split(i, std::span(members_).first(size_), leaf.first);
+            split(i, std::span(members_).first(leaf.count), leaf.first);
         }
     }
 
   private:
-    static Bounds box_of(std::span<const Member> members) {
-        Bounds box;
-        for (const Member& member : members)
-            box.extend(member.bounds);
-        return box;
-    }
-
+    /// By centroid, ties by number; by insertion, of eight at most.
     static void sort(std::span<Member> members, int axis) {
-        std::sort(members.begin(), members.end(), [axis](const Member& a, const Member& b) {
-            const float ca = a.bounds.center()[axis], cb = b.bounds.center()[axis];
+        const auto before = [axis](const Member& a, const Member& b) {
+            const float ca = a.bounds.lower[axis] + a.bounds.upper[axis];
+            const float cb = b.bounds.lower[axis] + b.bounds.upper[axis];
             return ca < cb || (ca == cb && a.number < b.number);
-        });
+        };
+        for (std::size_t i = 1; i < members.size(); ++i) {
+            const Member member = members[i];
+            std::size_t to = i;
+            for (; to > 0 && before(member, members[to - 1]); --to)
+                members[to] = members[to - 1];
+            members[to] = member;
+        }
     }
 
-    /// How many of the sorted members go left, and the cost.
-    static std::pair<std::size_t, double> best_position(std::span<const Member> members) {
-        std::size_t best = members.size() / 2;
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 1; i < members.size(); ++i) {
-            const double cost =
-                surface_area(box_of(members.first(i))) * static_cast<double>(i) +
-                surface_area(box_of(members.subspan(i))) * static_cast<double>(members.size() - i);
-            if (cost < least) {
-                least = cost;
-                best = i;
-            }
+    /// The cheapest position of a sorted list, with the boxes of both sides.
+    struct Split {
+        double cost = std::numeric_limits<double>::infinity();
+        std::size_t middle = 0;
+        Bounds left, right;
+    };
+    static Split best_split(std::span<const Member> members) {
+        std::array<Bounds, sah_max_leaf_size> from; ///< [i]: box of members i and after
+        Bounds box;
+        for (std::size_t i = members.size(); i-- > 0;) {
+            box.extend(members[i].bounds);
+            from[i] = box;
         }
-        return {best, least};
+        Split best;
+        box = {};
+        for (std::size_t i = 1; i < members.size(); ++i) {
+            box.extend(members[i - 1].bounds);
+            const double cost = surface_area(box) * static_cast<double>(i) +
+                                surface_area(from[i]) * static_cast<double>(members.size() - i);
+            if (cost < best.cost)
+                best = {cost, i, box, from[i]};
+        }
+        return best;
     }
 
     /// `first`: where the members stand in tree_.primitives.
@@ -78,23 +90,25 @@ class LeafSplitter {
             tree_.primitives[first] = members[0].number;
             return;
         }
-        int best_axis = 0;
-        double least = std::numeric_limits<double>::infinity();
+        Split best;
+        std::array<Member, sah_max_leaf_size> order, best_order;
+        std::copy(members.begin(), members.end(), order.begin());
+        const std::span<Member> ordered = std::span(order).first(members.size());
         for (int axis = 0; axis < 3; ++axis) {
-            sort(members, axis);
-            if (const double cost = best_position(members).second; cost < least) {
-                least = cost;
-                best_axis = axis;
+            sort(ordered, axis);
+            if (const Split found = best_split(ordered); found.cost < best.cost) {
+                best = found;
+                best_order = order;
             }
         }
-        sort(members, best_axis);
-        const std::size_t middle = best_position(members).first;
+        std::copy_n(best_order.begin(), members.size(), members.begin());
+        const std::size_t middle = best.middle;
         const auto children = static_cast<std::uint32_t>(tree_.nodes.size());
         tree_.nodes[node].first = children;
         tree_.nodes[node].count = 0;
         const auto left = members.first(middle), right = members.subspan(middle);
-        tree_.nodes.push_back({box_of(left), 0, 0});
-        tree_.nodes.push_back({box_of(right), 0, 0});
+        tree_.nodes.push_back({best.left, 0, 0});
+        tree_.nodes.push_back({best.right, 0, 0});
         split(children, left, first);
         split(children + 1, right, first + static_cast<std::uint32_t>(middle));
     }
@@ -103,7 +117,6 @@ class LeafSplitter {
     const GeometryView& geometry_;
     const PrimitiveNumbers numbers_;
     std::array<Member, sah_max_leaf_size> members_;
-    std::size_t size_ = 0;
 };
 
 int depth_of(const BinaryBvh& tree, std::uint32_t node) {
