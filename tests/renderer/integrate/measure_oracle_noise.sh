@@ -3,7 +3,7 @@
 #
 #   tests/renderer/integrate/measure_oracle_noise.sh [RUNS [BUILD FOLDER]]
 #
-# RUNS is a pattern of names, '*' for all (default; half an hour of one core): 'cavity_*_sobol'.
+# RUNS is a pattern of names, '*' for all (default; a quarter of an hour of one core): 'cavity_*_sobol'.
 # Other rows stay as they are. JOBS=N measures with N processes.
 #
 # For a change that is meant to alter the noise: say in the commit why, and look at what became
