@@ -3,6 +3,7 @@
 
 #include "accel/intersector.h"
 #include "tests/support/brute_force.h"
+#include "tests/support/hits.h"
 #include "tests/support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -51,21 +52,6 @@ inline std::string config_name(const testing::TestParamInfo<Config>& info) {
     return name_of(info.param);
 }
 
-/// The instruction sets that this processor has, and `automatic`.
-inline std::vector<Isa> isas_here() {
-    std::vector<Isa> isas{Isa::automatic};
-    for (const Isa isa : {Isa::portable, Isa::avx2, Isa::avx512}) {
-        try {
-            (void)make_intersector(AccelKind::sah, GeometryView{},
-                                   {TriangleTest::watertight, BuildQuality::medium, isa});
-            isas.push_back(isa);
-        } catch (const std::runtime_error&) {
-            continue; // a processor without it
-        }
-    }
-    return isas;
-}
-
 /// sah in every instruction set, and in the other qualities.
 inline std::vector<Config> sah_configs(TriangleTest test) {
     std::vector<Config> configs;
@@ -101,13 +87,6 @@ inline auto watertight_configs() {
     std::vector<Config> configs = own_config_list(false);
     configs.push_back(embree_config);
     return testing::ValuesIn(configs);
-}
-
-inline bool same_bits(const Hit& a, const Hit& b) {
-    return std::bit_cast<std::uint32_t>(a.t) == std::bit_cast<std::uint32_t>(b.t) &&
-           std::bit_cast<std::uint32_t>(a.u) == std::bit_cast<std::uint32_t>(b.u) &&
-           std::bit_cast<std::uint32_t>(a.v) == std::bit_cast<std::uint32_t>(b.v) &&
-           a.geometry == b.geometry && a.primitive == b.primitive && a.instance == b.instance;
 }
 
 inline bool is_miss(const Hit& hit) { return same_bits(hit, Hit{}); }
