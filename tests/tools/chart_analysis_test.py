@@ -134,6 +134,31 @@ class References(unittest.TestCase):
         self.assertEqual(len(set(keys)), 4)
 
 
+# As a renderer: a picture of one pixel, rendered in half a millisecond, as it says.
+PROGRAM = """#!/bin/sh
+while [ $# -gt 0 ]; do
+    case $1 in -o) image=$2 ;; --stats) stats=$2 ;; esac
+    shift
+done
+printf 'PF\\n1 1\\n-1\\n\\000\\000\\200\\077\\000\\000\\000\\100\\000\\000\\100\\100' >"$image"
+i=0; while [ $i -lt 20000 ]; do i=$((i + 1)); done
+echo '{"render_s": 0.0005, "total_s": 0.001, "samples": 4, "rays": {"total": 9}, "peak_bytes": 5}' >"$stats"
+"""
+
+
+class Rendering(unittest.TestCase):
+    def test_the_start_of_the_process_is_not_counted(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = os.path.join(folder, "renderer")
+            with open(program, "w", encoding="utf-8") as file:
+                file.write(PROGRAM)
+            os.chmod(program, 0o755)
+            picture, record = measure.Renderer(program, folder, 1, 8).render(__file__, methods.Method("default", {}), 4, 0)
+        np.testing.assert_array_equal(picture, [[[1, 2, 3]]])
+        self.assertEqual((record["wall_s"], record["samples"], record["rays"], record["memory_bytes"]), (0.0005, 4, 9, 5))
+        self.assertTrue(0 < record["cpu_s"] <= 0.0005, record)  # of some ms of the process
+
+
 class Stopping(unittest.TestCase):
     def setUp(self):
         for number in stop.NUMBERS:
@@ -168,7 +193,6 @@ class Stopping(unittest.TestCase):
         with unittest.mock.patch.object(measure.subprocess, "Popen", start), self.assertRaises(stop.Stopped):
             renderer.render(__file__, methods.Method("default", {}), 1, 0)
         self.assertEqual(started[0].returncode, -signal.SIGKILL)
-        started[0].stderr.close()
 
 
 class Summary(unittest.TestCase):

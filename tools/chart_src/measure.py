@@ -61,6 +61,9 @@ class Renderer:
                 process.kill()
                 process.wait()
             raise
+        finally:
+            if process:
+                process.stderr.close()
         if process.returncode != 0:
             raise RenderError(errors.strip(), process.returncode if process.returncode > 0 else 70)
         with open(stats, encoding="utf-8") as file:
