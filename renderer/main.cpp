@@ -245,6 +245,14 @@ int run_and_report(const Options& options) {
     }
 }
 
+/// What was printed must have arrived, or a full disk would look like success.
+int close_stdout(int exit_code) {
+    if (std::fflush(stdout) == 0 || exit_code != 0)
+        return exit_code;
+    fmt::print(stderr, "error: cannot write to the standard output\n");
+    return static_cast<int>(ErrorKind::output);
+}
+
 } // namespace
 } // namespace plumb
 
@@ -253,5 +261,8 @@ int main(int argc, char** argv) {
     for (const int signal_number : {SIGINT, SIGTERM, SIGHUP})
         std::signal(signal_number, plumb::request_stop);
     const plumb::ParsedOptions parsed = plumb::parse_options(argc, argv);
-    return parsed.options ? plumb::run_and_report(*parsed.options) : parsed.exit_code;
+    if (parsed.options)
+        return plumb::close_stdout(plumb::run_and_report(*parsed.options));
+    fmt::print(parsed.exit_code == 0 ? stdout : stderr, "{}", parsed.text);
+    return plumb::close_stdout(parsed.exit_code);
 }

@@ -1,14 +1,15 @@
 #include "renderer/options.h"
 
 #include "renderer/io/parse_number.h"
+#include "renderer/io/xml_text.h"
 #include "renderer/stop_options.h"
 #include "renderer/unknown_argument.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <map>
+#include <sstream>
 
 namespace plumb {
 namespace {
@@ -250,6 +251,14 @@ void add_output_flags(CLI::App& app, Options& options) {
     app.add_flag("--quiet,-q", options.quiet, "Print errors only");
 }
 
+/// An empty value is a slip (`-o "$unset"`): it must not count as a flag that was not given.
+void check_no_value_is_empty(const CLI::App& app) {
+    for (const CLI::Option* option : app.get_options())
+        for (const std::string& value : option->results())
+            if (value.empty())
+                throw CLI::ValidationError(option->get_name(), "empty value");
+}
+
 /// What CLI11 cannot see: flags that contradict each other.
 void check_contradictions(const Options& options) {
     if (options.accel == AccelKind::embree &&
@@ -306,17 +315,21 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
         app.parse(argc, argv);
         if (!app.remaining(true).empty())
             throw CLI::ValidationError("", unknown_argument(app));
+        check_no_value_is_empty(app);
         check_contradictions(options);
     } catch (const CLI::Success& request) {
-        return {std::nullopt, app.exit(request)};
+        std::ostringstream answer, none;
+        const int code = app.exit(request, answer, none);
+        return {std::nullopt, code, answer.str()};
     } catch (const CLI::ParseError& error) {
         const std::string unknown =
             app.remaining(true).empty() ? std::string() : unknown_argument(app);
-        fmt::print(stderr, "error: {} (see --help)\n", unknown.empty() ? error.what() : unknown);
-        return {std::nullopt, 2};
+        // What was typed may hold characters that a terminal obeys.
+        const std::string what = one_line(unknown.empty() ? error.what() : unknown);
+        return {std::nullopt, 2, fmt::format("error: {} (see --help)\n", what)};
     }
     options.command_line = join(argc, argv);
-    return {options, 0};
+    return {options, 0, {}};
 }
 
 void apply_options(const Options& options, Scene& scene) {

@@ -45,11 +45,12 @@ struct Options {
     std::string command_line;          ///< as typed, for the image's metadata
 };
 
-/// Either options, or the exit code of a run that ends here (--help, --version, a usage error that
-/// was printed to stderr).
+/// Either options, or the exit code of a run that ends here and what it prints: --help and
+/// --version to stdout (0), a usage error of one line to stderr (2).
 struct ParsedOptions {
     std::optional<Options> options;
     int exit_code = 0;
+    std::string text;
 };
 
 [[nodiscard]] ParsedOptions parse_options(int argc, const char* const* argv);

@@ -3,7 +3,11 @@
 
 #include "accel/intersector.h"
 #include "tests/support/brute_force.h"
+<<<<<<< HEAD
 #include "tests/support/device_trees.h"
+=======
+#include "tests/support/hits.h"
+>>>>>>> fuzz
 #include "tests/support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -62,6 +66,7 @@ inline std::string config_name(const testing::TestParamInfo<Config>& info) {
     return name_of(info.param);
 }
 
+<<<<<<< HEAD
 /// The instruction sets that this processor has, and `automatic`.
 inline std::vector<Isa> isas_here() {
     std::vector<Isa> isas{Isa::automatic};
@@ -78,6 +83,9 @@ inline std::vector<Isa> isas_here() {
 }
 
 /// sah in every instruction set, in the other qualities, and as a device reads it.
+=======
+/// sah in every instruction set, and in the other qualities.
+>>>>>>> fuzz
 inline std::vector<Config> sah_configs(TriangleTest test) {
     std::vector<Config> configs;
     for (const Isa isa : isas_here())
@@ -114,13 +122,6 @@ inline auto watertight_configs() {
     std::vector<Config> configs = own_config_list(false);
     configs.push_back(embree_config);
     return testing::ValuesIn(configs);
-}
-
-inline bool same_bits(const Hit& a, const Hit& b) {
-    return std::bit_cast<std::uint32_t>(a.t) == std::bit_cast<std::uint32_t>(b.t) &&
-           std::bit_cast<std::uint32_t>(a.u) == std::bit_cast<std::uint32_t>(b.u) &&
-           std::bit_cast<std::uint32_t>(a.v) == std::bit_cast<std::uint32_t>(b.v) &&
-           a.geometry == b.geometry && a.primitive == b.primitive && a.instance == b.instance;
 }
 
 inline bool is_miss(const Hit& hit) { return same_bits(hit, Hit{}); }

@@ -101,6 +101,10 @@ TEST_F(CommandLine, BadCallsSayWhatIsWrongAndWriteNothing) {
         {"--exposure 1e999 -o a.png box.xml", 2, "(got '1e999'"},
         {"-D spp box.xml", 2, "(got 'spp', expected NAME=VALUE)"},
         {"box.xml box.xml", 2, "unexpected argument 'box.xml'"},
+        {"''", 2, "scene: empty value"},
+        {"--stats '' box.xml", 2, "--stats: empty value"},
+        {"-o '' box.xml", 2, "--output: empty value"},
+        {"--accel=\x1b[31mred box.xml", 2, "(got '?[31mred', expected"}, // no colours
         {"--accel=embree --triangle-test=moeller-trumbore box.xml", 2, "needs --accel=naive"},
         {"--device=cuda --accel=naive box.xml", 2, "needs --accel=sah"},
         {"--cuda-tree=octree box.xml", 2, "(got 'octree', expected binary, wide)"},
