@@ -10,8 +10,8 @@ namespace plumb {
 
 enum class AccelKind : std::uint8_t { naive, sah, embree };
 
-/// How much time a build may take for faster rays. sah: fast is binned SAH, medium collapses it
-/// better, high adds spatial splits and reinsertion. embree: low, medium and high. naive: ignored.
+/// How much time a build may take for faster rays. sah: fast is binned SAH on the widest axis,
+/// medium on all three, high adds spatial splits and reinsertion. embree: low, medium and high. naive: ignored.
 enum class BuildQuality : std::uint8_t { fast, medium, high };
 
 /// Instruction sets of the sah traversal; all give the same bits. `automatic` is the best that the

@@ -1,11 +1,14 @@
-/// \file  The host side of the GPU renderer: memory, launches, errors.
+/// \file  The host side of the GPU renderer: memory and the executors that launch.
 
 #include "cuda/cuda_render.h"
 
+#include "cuda/device.h"
 #include "cuda/device_buffer.h"
 #include "cuda/path_kernel.h"
 #include "cuda/place_scene.h"
 #include "cuda/render_batches.h"
+
+#include <chrono>
 
 namespace plumb {
 namespace {
@@ -13,34 +16,30 @@ namespace {
 /// Pixels in work at a time: enough threads for any device, 60 MB of film.
 constexpr std::uint32_t chunk_pixels = 1u << 20;
 
-/// Makes the first device current. Throws DeviceError if it cannot run the kernels.
-void start_device() {
-    int driver = 0;
-    if (cudaDriverGetVersion(&driver) == cudaSuccess && driver == 0)
-        throw DeviceError("cuda: there is no NVIDIA driver");
-    RT_CUDA_CHECK(cudaSetDevice(0));
-    check_path_kernel();
-}
+/// Paths in work at a time in a wavefront, 200 bytes each.
+constexpr std::uint32_t wave_slots = 1u << 20;
 
 /// The job and its tree in one block of device memory.
 class PlacedJob {
   public:
-    PlacedJob(const RenderJob& job, const SahView& tree) : block_(size_of(job, tree)) {
+    PlacedJob(const RenderJob& job, const TreeViews& trees) : block_(size_of(job, trees)) {
         Arena arena(block_.data(), [](std::byte* to, const void* from, std::size_t bytes) {
             RT_CUDA_CHECK(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice));
         });
         device_.job = job;
         device_.job.scene = place(job.scene, arena);
-        device_.tree = place(tree, arena);
+        device_.trees = place(trees, arena);
     }
 
     [[nodiscard]] const DeviceJob& device() const { return device_; }
+    [[nodiscard]] std::size_t bytes() const { return block_.size(); }
 
   private:
-    static std::size_t size_of(const RenderJob& job, const SahView& tree) {
+    static std::size_t size_of(const RenderJob& job, const TreeViews& trees) {
         Arena measure;
         static_cast<void>(place(job.scene, measure));
-        static_cast<void>(place(tree, measure));
+        static_cast<void>(place(trees, measure));
+        require_device_memory(measure.used(), "the scene");
         return measure.used();
     }
 
@@ -48,11 +47,11 @@ class PlacedJob {
     DeviceJob device_;
 };
 
-/// Runs batches on the device: an executor of BatchRenderer.
-class DeviceExecutor {
+/// Film and counters of a chunk.
+class DeviceFilm {
   public:
-    DeviceExecutor(const DeviceJob& device, PathKernel kernel, std::size_t pixels)
-        : device_(device), kernel_(kernel), film_(pixels), counts_(1) {
+    DeviceFilm(const DeviceJob& device, PathKernel kernel, CudaTree tree, std::size_t pixels)
+        : device_(device), kernel_(kernel), tree_(tree), film_(pixels), counts_(1) {
         device_.film = film_.data();
         device_.counts = counts_.data();
     }
@@ -61,21 +60,103 @@ class DeviceExecutor {
         film_.clear(pixels);
         counts_.clear(1);
     }
+    void fetch(std::span<FilmPixel> film) const { film_.copy_to(film); }
+
+  protected:
+    DeviceJob device_;
+    PathKernel kernel_;
+    CudaTree tree_;
+    DeviceBuffer<FilmPixel> film_;
+    DeviceBuffer<RayCounts> counts_;
+};
+
+/// Runs batches by the megakernel: an executor of BatchRenderer.
+class DeviceExecutor : public DeviceFilm {
+  public:
+    using DeviceFilm::DeviceFilm;
+
     RayCounts run(const Batch& batch) {
         device_.batch = batch;
-        launch_path_kernel(device_, kernel_);
+        launch_path_kernel(device_, kernel_, tree_);
         RT_CUDA_CHECK(cudaDeviceSynchronize());
         RayCounts counts;
         counts_.copy_to({&counts, 1});
         return counts;
     }
-    void fetch(std::span<FilmPixel> film) const { film_.copy_to(film); }
+    [[nodiscard]] std::size_t bytes() const { return film_.size() * sizeof(FilmPixel); }
+    [[nodiscard]] std::vector<KernelReport> kernels() const {
+        return path_kernel_reports(kernel_, tree_);
+    }
+};
+
+/// Runs batches by the wavefront: another, and the launcher of its WaveRunner.
+class DeviceWaves : public DeviceFilm {
+  public:
+    DeviceWaves(const DeviceJob& device, PathKernel kernel, CudaTree tree, std::size_t pixels)
+        : DeviceFilm(device, kernel, tree, pixels),
+          slots_(std::max(wave_slots, static_cast<std::uint32_t>(pixels))), paths_(slots_),
+          hits_(slots_), now_(slots_), next_(slots_), shadows_(slots_), counters_(1) {}
+
+    void clear(std::uint32_t pixels) {
+        DeviceFilm::clear(pixels);
+        counters_.clear(1);
+        rays_ = {};
+    }
+    RayCounts run(const Batch& batch) {
+        device_.batch = batch;
+        const WaveView wave{paths_.data(), hits_.data(),    now_.data(),
+                            next_.data(),  shadows_.data(), counters_.data()};
+        rays_ += WaveRunner(*this, wave, slots_).run(device_);
+        RT_CUDA_CHECK(cudaDeviceSynchronize());
+        return rays_;
+    }
+    void launch(WaveStage stage, const WaveJob& job) {
+        launch_wave_stage(stage, job, kernel_, tree_);
+    }
+    WaveCounters take_counters(const WaveJob& /*job*/) {
+        WaveCounters counters;
+        counters_.copy_to({&counters, 1});
+        counters_.clear(1);
+        return counters;
+    }
+    [[nodiscard]] std::size_t bytes() const {
+        return film_.size() * sizeof(FilmPixel) +
+               slots_ * (sizeof(PathState) + sizeof(Hit) + 2 * sizeof(std::uint32_t) +
+                         sizeof(ShadowEntry));
+    }
+    [[nodiscard]] std::vector<KernelReport> kernels() const {
+        return wave_kernel_reports(kernel_, tree_);
+    }
 
   private:
-    DeviceJob device_;
-    PathKernel kernel_;
-    DeviceBuffer<FilmPixel> film_;
-    DeviceBuffer<RayCounts> counts_;
+    std::uint32_t slots_;
+    DeviceBuffer<PathState> paths_;
+    DeviceBuffer<Hit> hits_;
+    DeviceBuffer<std::uint32_t> now_, next_;
+    DeviceBuffer<ShadowEntry> shadows_;
+    DeviceBuffer<WaveCounters> counters_;
+    RayCounts rays_;
+};
+
+struct Work {
+    const RenderJob& job;
+    const DeviceJob& device;
+    PathKernel kernel;
+    CudaTree tree;
+    const RenderOptions& options;
+    RenderStats& stats;
+    DeviceReport& report;
+
+    template <class Executor> [[nodiscard]] Film run() const {
+        const auto pixels = static_cast<std::uint64_t>(job.crop.width) *
+                            static_cast<std::uint64_t>(job.crop.height);
+        const auto chunk =
+            static_cast<std::uint32_t>(std::min<std::uint64_t>(chunk_pixels, pixels));
+        Executor executor(device, kernel, tree, chunk);
+        report.working_bytes = executor.bytes();
+        report.kernels = executor.kernels();
+        return BatchRenderer(job, options, executor, stats).render(chunk);
+    }
 };
 
 } // namespace
@@ -91,24 +172,29 @@ bool cuda_available(std::string* why) {
     }
 }
 
-Film render_on_cuda(const RenderJob& job, const Features& needed, const SahView& tree,
-                    TriangleTest test, const RenderOptions& options, RenderStats& stats) {
+std::string cuda_device_name() {
     start_device();
-    const bool box = box_profile.covers(needed) && !options.force_full_profile &&
-                     test == TriangleTest::watertight;
-    stats.profile = profile_name(box ? box_profile : full_profile);
-    const PathKernel kernel = box ? PathKernel::box
-                              : test == TriangleTest::watertight
-                                  ? PathKernel::full
-                                  : PathKernel::full_moeller_trumbore;
-    const PlacedJob placed(job, tree);
+    return device_name();
+}
+
+Film render_on_cuda(const RenderJob& job, const Features& needed, const TreeViews& trees,
+                    TriangleTest test, const CudaSettings& settings, const RenderOptions& options,
+                    RenderStats& stats, DeviceReport* report) {
+    start_device();
+    DeviceReport unread;
+    DeviceReport& told = report != nullptr ? *report : unread;
+    told.device = device_name();
+    const PathKernel kernel = path_kernel_for(needed, test, options.force_full_profile);
+    stats.profile = profile_name(kernel == PathKernel::box ? box_profile : full_profile);
+    const auto start = std::chrono::steady_clock::now();
+    const PlacedJob placed(job, trees);
+    told.upload_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    told.scene_bytes = placed.bytes();
     DeviceJob device = placed.device();
     device.with_variance = options.variance;
-    const auto pixels =
-        static_cast<std::uint64_t>(job.crop.width) * static_cast<std::uint64_t>(job.crop.height);
-    const auto chunk = static_cast<std::uint32_t>(std::min<std::uint64_t>(chunk_pixels, pixels));
-    DeviceExecutor executor(device, kernel, chunk);
-    return BatchRenderer(job, options, executor, stats).render(chunk);
+    const Work work{job, device, kernel, settings.tree, options, stats, told};
+    return settings.schedule == CudaSchedule::megakernel ? work.run<DeviceExecutor>()
+                                                         : work.run<DeviceWaves>();
 }
 
 } // namespace plumb

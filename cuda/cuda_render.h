@@ -3,8 +3,9 @@
 /// Builds without nvcc have these functions too (no_cuda.cpp); there is then never a device.
 #pragma once
 
-#include "accel/sah/sah_view.h"
 #include "cuda/device_error.h"
+#include "cuda/device_report.h"
+#include "cuda/device_tree.h"
 #include "renderer/integrate/render.h"
 
 #include <string>
@@ -15,11 +16,16 @@ namespace plumb {
 /// it begins with "cuda: ".
 [[nodiscard]] bool cuda_available(std::string* why = nullptr);
 
-/// Renders on the first device. `tree`: of the job's geometry; host memory, as all of `job`.
-/// options.threads is ignored. Throws DeviceError: no device, not enough device memory, a kernel
-/// that failed; `stats` is then of no use.
-[[nodiscard]] Film render_on_cuda(const RenderJob& job, const Features& needed, const SahView& tree,
-                                  TriangleTest test, const RenderOptions& options,
-                                  RenderStats& stats);
+/// Name of the first device. Throws DeviceError where there is none.
+[[nodiscard]] std::string cuda_device_name();
+
+/// Renders on the first device. `trees`: the one that the settings name, of the job's geometry;
+/// host memory, as all of `job`. options.threads is ignored. `report`, if given, is filled in.
+/// Throws DeviceError: no device, not enough device memory, a kernel that failed; `stats` is then
+/// of no use.
+[[nodiscard]] Film render_on_cuda(const RenderJob& job, const Features& needed,
+                                  const TreeViews& trees, TriangleTest test,
+                                  const CudaSettings& settings, const RenderOptions& options,
+                                  RenderStats& stats, DeviceReport* report = nullptr);
 
 } // namespace plumb

@@ -28,6 +28,12 @@ template <class T> class DeviceBuffer {
 
     /// Sets the first `count` values to zero bits.
     void clear(std::size_t count) { RT_CUDA_CHECK(cudaMemset(data_, 0, count * sizeof(T))); }
+    /// Sets the first from.size() values.
+    void copy_from(std::span<const T> from) {
+        if (!from.empty())
+            RT_CUDA_CHECK(
+                cudaMemcpy(data_, from.data(), from.size_bytes(), cudaMemcpyHostToDevice));
+    }
     /// Copies the first to.size() values to the host; waits for all kernels.
     void copy_to(std::span<T> to) const {
         if (!to.empty())

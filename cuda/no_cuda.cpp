@@ -1,6 +1,7 @@
-/// \file  What a build without CUDA has in place of cuda_render.cpp.
+/// \file  What a build without CUDA has in place of cuda_render.cpp and the kernels.
 
 #include "cuda/cuda_render.h"
+#include "cuda/ray_side.h"
 
 namespace plumb {
 namespace {
@@ -15,9 +16,17 @@ bool cuda_available(std::string* why) {
     return false;
 }
 
-Film render_on_cuda(const RenderJob& /*job*/, const Features& /*needed*/, const SahView& /*tree*/,
-                    TriangleTest /*test*/, const RenderOptions& /*options*/,
-                    RenderStats& /*stats*/) {
+std::string cuda_device_name() { throw DeviceError(built_without); }
+
+Film render_on_cuda(const RenderJob& /*job*/, const Features& /*needed*/,
+                    const TreeViews& /*trees*/, TriangleTest /*test*/,
+                    const CudaSettings& /*settings*/, const RenderOptions& /*options*/,
+                    RenderStats& /*stats*/, DeviceReport* /*report*/) {
+    throw DeviceError(built_without);
+}
+
+std::unique_ptr<RayTracer::Side> make_device_side(const TreeViews& /*trees*/, CudaTree /*tree*/,
+                                                  TriangleTest /*test*/) {
     throw DeviceError(built_without);
 }
 

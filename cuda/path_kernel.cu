@@ -1,44 +1,45 @@
-/// \file  The path tracer as CUDA kernels, one a profile and triangle test: a thread a pixel.
+/// \file  The path tracer as CUDA kernels, one a profile, triangle test and tree: a thread a pixel.
 ///
 /// Only device code may come of the headers here: on the host, under nvcc, they would compile to
 /// other code than in the rest of the program.
 
-#include "cuda/path_kernel.h"
-
-#include "cuda/cuda_check.h"
+#include "cuda/launch.cuh"
 
 namespace plumb {
 namespace {
 
-constexpr std::uint32_t threads_per_block = 128;
-
 // The job is a parameter of 2.5 kB in constant memory; __grid_constant__ saves the copy a thread
 // that its address would cost. nvcc 13 cannot name a template argument of class type (Features) on
 // the host, hence the bool.
-template <bool Box, TriangleTest Test>
+template <bool Box, TriangleTest Test, CudaTree Tree>
 __global__ void __launch_bounds__(threads_per_block)
     render_kernel(const __grid_constant__ DeviceJob device) {
     constexpr Features features = Box ? box_profile : full_profile;
-    render_thread<features, Test>(device, GridPosition{blockIdx.x, threadIdx.x, blockDim.x});
+    render_thread<features, Test, Tree>(device, GridPosition{blockIdx.x, threadIdx.x, blockDim.x});
 }
 static_assert(sizeof(DeviceJob) <= 4096, "the limit of a kernel's parameters");
 
 using Kernel = void (*)(DeviceJob);
 
-Kernel kernel_of(PathKernel kind) {
+template <CudaTree Tree> Kernel kernel_of(PathKernel kind) {
     switch (kind) {
-    case PathKernel::box: return render_kernel<true, TriangleTest::watertight>;
-    case PathKernel::full: return render_kernel<false, TriangleTest::watertight>;
+    case PathKernel::box: return render_kernel<true, TriangleTest::watertight, Tree>;
+    case PathKernel::full: return render_kernel<false, TriangleTest::watertight, Tree>;
     case PathKernel::full_moeller_trumbore:
-        return render_kernel<false, TriangleTest::moeller_trumbore>;
+        return render_kernel<false, TriangleTest::moeller_trumbore, Tree>;
     }
     return nullptr;
 }
 
+Kernel kernel_of(PathKernel kind, CudaTree tree) {
+    return tree == CudaTree::binary ? kernel_of<CudaTree::binary>(kind)
+                                    : kernel_of<CudaTree::wide>(kind);
+}
+
 } // namespace
 
-void launch_path_kernel(const DeviceJob& device, PathKernel kind) {
-    const Kernel kernel = kernel_of(kind);
+void launch_path_kernel(const DeviceJob& device, PathKernel kind, CudaTree tree) {
+    const Kernel kernel = kernel_of(kind, tree);
     const LaunchShape shape = shape_for(device.batch.pixel_count, threads_per_block);
     kernel<<<shape.blocks, shape.block_size>>>(device);
     RT_CUDA_CHECK(cudaGetLastError());
@@ -46,7 +47,11 @@ void launch_path_kernel(const DeviceJob& device, PathKernel kind) {
 
 void check_path_kernel() {
     cudaFuncAttributes attributes;
-    RT_CUDA_CHECK(cudaFuncGetAttributes(&attributes, kernel_of(PathKernel::box)));
+    RT_CUDA_CHECK(cudaFuncGetAttributes(&attributes, kernel_of(PathKernel::box, CudaTree::binary)));
+}
+
+std::vector<KernelReport> path_kernel_reports(PathKernel kind, CudaTree tree) {
+    return {report_of(reinterpret_cast<const void*>(kernel_of(kind, tree)), "megakernel")};
 }
 
 } // namespace plumb

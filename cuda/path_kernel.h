@@ -1,19 +1,23 @@
-/// \file  The kernels that path_kernel.cu compiles, for the host code beside it.
+/// \file  The kernels that the .cu files compile, for the host code beside them.
 #pragma once
 
-#include "cuda/render_kernel.h"
+#include "cuda/device_report.h"
+#include "cuda/wave_runner.h"
 
 namespace plumb {
 
-/// The kernels that are compiled. The Möller-Trumbore test is there for comparison: no kernel of
-/// its own for simple scenes.
-enum class PathKernel : std::uint8_t { box, full, full_moeller_trumbore };
+/// Starts the megakernel for one batch; returns before it is done. Throws DeviceError where it
+/// cannot start.
+void launch_path_kernel(const DeviceJob& device, PathKernel kind, CudaTree tree);
 
-/// Starts the kernel for one batch; returns before it is done. Throws DeviceError where it cannot
-/// start.
-void launch_path_kernel(const DeviceJob& device, PathKernel kind);
+/// Starts a stage of the wavefront, likewise.
+void launch_wave_stage(WaveStage stage, const WaveJob& job, PathKernel kind, CudaTree tree);
 
 /// Throws DeviceError where the device cannot run the code that was compiled.
 void check_path_kernel();
+
+/// What the kernels of a render take of the device.
+[[nodiscard]] std::vector<KernelReport> path_kernel_reports(PathKernel kind, CudaTree tree);
+[[nodiscard]] std::vector<KernelReport> wave_kernel_reports(PathKernel kind, CudaTree tree);
 
 } // namespace plumb

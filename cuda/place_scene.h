@@ -54,6 +54,17 @@ class Arena {
     return copy;
 }
 
+[[nodiscard]] inline CompressedView place(const CompressedView& tree, Arena& arena) {
+    CompressedView copy = tree;
+    copy.nodes = arena.place(std::span(tree.nodes, tree.node_count)).data();
+    copy.primitives = arena.place(std::span(tree.primitives, tree.primitive_count)).data();
+    return copy;
+}
+
+[[nodiscard]] inline TreeViews place(const TreeViews& trees, Arena& arena) {
+    return {place(trees.binary, arena), place(trees.wide, arena)};
+}
+
 [[nodiscard]] inline GeometryView place(const GeometryView& geometry, Arena& arena) {
     std::vector<MeshView> meshes;
     for (const MeshView& mesh : geometry.meshes)

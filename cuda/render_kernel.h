@@ -4,12 +4,23 @@
 /// pixel: the film is the same bits by construction.
 #pragma once
 
-#include "accel/sah/sah_traverse.h"
+#include "cuda/device_tree.h"
 #include "cuda/grid.h"
 #include "renderer/integrate/film.h"
 #include "renderer/integrate/pixel.h"
 
 namespace plumb {
+
+/// The kernels that are compiled. The Möller-Trumbore test is there for comparison: no kernel of
+/// its own for simple scenes.
+enum class PathKernel : std::uint8_t { box, full, full_moeller_trumbore };
+
+[[nodiscard]] inline PathKernel path_kernel_for(const Features& needed, TriangleTest test,
+                                                bool force_full) {
+    if (test == TriangleTest::moeller_trumbore)
+        return PathKernel::full_moeller_trumbore;
+    return box_profile.covers(needed) && !force_full ? PathKernel::box : PathKernel::full;
+}
 
 /// The work of one launch. Pixels of the crop are numbered row by row from 0.
 struct Batch {
@@ -21,23 +32,11 @@ struct Batch {
 /// What a kernel is launched with. Every pointer and span is of the side that runs it.
 struct DeviceJob {
     RenderJob job;
-    SahView tree;
+    TreeViews trees;
     Batch batch;
     FilmPixel* film = nullptr;   ///< batch.pixel_count, so far
     RayCounts* counts = nullptr; ///< one, for all threads
     bool with_variance = false;
-};
-
-/// Ray queries of a kernel: the SAH tree.
-template <TriangleTest Test> struct SahQuery {
-    const SahView& tree;
-
-    [[nodiscard]] RT_HD Hit closest(const Ray& ray) const {
-        return plumb::closest<Test>(tree, ray);
-    }
-    [[nodiscard]] RT_HD bool occluded(const Ray& ray) const {
-        return plumb::occluded<Test>(tree, ray);
-    }
 };
 
 namespace detail {
@@ -55,7 +54,7 @@ RT_HD inline void add_shared(std::uint64_t& counter, std::uint64_t n) {
 } // namespace detail
 
 /// The body of the kernel: thread i renders pixel i of the batch.
-template <Features F, TriangleTest Test>
+template <Features F, TriangleTest Test, CudaTree Tree>
 RT_HD void render_thread(const DeviceJob& device, GridPosition at) {
     const std::uint64_t i = at.index();
     if (i >= device.batch.pixel_count)
@@ -65,7 +64,7 @@ RT_HD void render_thread(const DeviceJob& device, GridPosition at) {
     const auto width = static_cast<std::uint64_t>(crop.width);
     const int x = crop.x + static_cast<int>(pixel % width);
     const int y = crop.y + static_cast<int>(pixel / width);
-    const SahQuery<Test> query{device.tree};
+    const TreeQuery<Test, Tree> query{device.trees};
     FilmPixel sum = device.film[i];
     RayCounts counts;
     for (std::uint32_t s = device.batch.first_sample; s < device.batch.end_sample; ++s)

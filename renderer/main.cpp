@@ -1,8 +1,10 @@
 /// \file  The command line program: one straight line from scene to image.
 
 #include "accel/parallel/parallel.h"
+#include "accel/sah/build_compressed.h"
 #include "accel/sah/build_sah.h"
 #include "cuda/cuda_render.h"
+#include "cuda/ray_tracer.h"
 #include "renderer/io/write_file.h"
 #include "renderer/options.h"
 #include "renderer/report.h"
@@ -70,10 +72,11 @@ void note_fallback(const Options& options, std::string_view why) {
 bool chooses_cuda(const Options& options) {
     if (options.device == Device::cpu)
         return false;
-    std::string why = options.validate     ? "cuda: rays are validated on the CPU"
+    const bool validates = options.validate || options.validate_cuda;
+    std::string why = validates            ? "cuda: rays are validated on the CPU"
                       : options.stop.any() ? "cuda: stops neither by error nor by time"
                                            : "cuda: needs --accel=sah";
-    if (options.accel == AccelKind::sah && !options.validate && !options.stop.any() &&
+    if (options.accel == AccelKind::sah && !validates && !options.stop.any() &&
         cuda_available(&why))
         return true;
     if (options.device == Device::cuda)
@@ -82,9 +85,32 @@ bool chooses_cuda(const Options& options) {
     return false;
 }
 
+/// Builds the tree that the settings name, uploads it and renders there.
+Film render_on_device(const Options& options, const SceneTables& tables, const RenderJob& job,
+                      const Features& needed, const RenderOptions& how, RunReport& report) {
+    SahTree binary;
+    CompressedTree wide;
+    TreeViews trees;
+    if (options.cuda.tree == CudaTree::binary) {
+        binary = build_sah(tables.geometry(), options.build.threads);
+        trees.binary = binary.view();
+        report.build = binary.stats();
+    } else {
+        wide = build_compressed(tables.geometry(), options.build.threads);
+        trees.wide = wide.view();
+        report.build = wide.stats();
+    }
+    report.device = "cuda";
+    report.device_report.emplace();
+    return render_on_cuda(job, needed, trees, options.build.triangle_test, options.cuda, how,
+                          report.render, &*report.device_report);
+}
+
 Film render_with_progress(const Options& options, const Scene& scene, const SceneTables& tables,
                           RunReport& report) {
     const bool on_cuda = chooses_cuda(options);
+    if (std::string why; options.validate_cuda && !cuda_available(&why))
+        throw DeviceError(why);
     report.accel = name_of(options.accel);
     report.threads = thread_count(options.threads);
     report.stop = options.stop;
@@ -100,21 +126,25 @@ Film render_with_progress(const Options& options, const Scene& scene, const Scen
     const Features needed = features_of(scene);
     if (on_cuda) {
         try {
-            const SahTree tree = build_sah(tables.geometry(), options.build.threads);
-            report.build = tree.stats();
-            report.device = "cuda";
-            return render_on_cuda(job, needed, tree.view(), options.build.triangle_test, how,
-                                  report.render);
+            return render_on_device(options, tables, job, needed, how, report);
         } catch (const DeviceError& error) {
             if (options.device == Device::cuda)
                 throw;
             note_fallback(options, error.what());
             report.device = "cpu";
+            report.device_report.reset();
             report.render = {};
         }
     }
     const auto intersector = make_intersector(options.accel, tables.geometry(), options.build);
     report.build = intersector->stats();
+    if (options.validate_cuda) {
+        const CudaIntersector device(RaySide::device, tables.geometry(), options.cuda.tree,
+                                     options.build.triangle_test, options.build.threads);
+        report.threads = 1;
+        return validate_paths(job, needed, *intersector, device, how, report.render,
+                              report.cuda_validation.emplace());
+    }
     if (!options.validate)
         return render(job, needed, *intersector, how, report.render);
     const RenderValidation validation(options, scene, tables.view(), *intersector);
@@ -140,6 +170,17 @@ int close_validation(const Options& options, const ValidationResult& result) {
                "({})\n",
                unexplained, name_of(result.first), name_of(result.second),
                result.replay_file.string());
+    return 1;
+}
+
+/// The same for --validate=cuda, which has no replay file.
+int close_validation(const Options& options, const PathValidation& found) {
+    if (!options.quiet)
+        fmt::print("{}", text_of(found, name_of(options.accel)));
+    if (found.different.total() == 0)
+        return 0;
+    fmt::print(stderr, "error: validation: {} rays have other bits on cuda than with {}\n",
+               found.different.total(), name_of(options.accel));
     return 1;
 }
 
@@ -179,7 +220,9 @@ int run(Options options) {
     }
     if (!options.stats_file.empty())
         atomic_write(options.stats_file, to_json(report, scene));
-    const int valid = report.validation ? close_validation(options, *report.validation) : 0;
+    int valid = report.validation ? close_validation(options, *report.validation) : 0;
+    if (report.cuda_validation)
+        valid = close_validation(options, *report.cuda_validation);
     return caught_signal != 0 ? 128 + caught_signal : valid;
 }
 
@@ -202,6 +245,14 @@ int run_and_report(const Options& options) {
     }
 }
 
+/// What was printed must have arrived, or a full disk would look like success.
+int close_stdout(int exit_code) {
+    if (std::fflush(stdout) == 0 || exit_code != 0)
+        return exit_code;
+    fmt::print(stderr, "error: cannot write to the standard output\n");
+    return static_cast<int>(ErrorKind::output);
+}
+
 } // namespace
 } // namespace plumb
 
@@ -210,5 +261,8 @@ int main(int argc, char** argv) {
     for (const int signal_number : {SIGINT, SIGTERM, SIGHUP})
         std::signal(signal_number, plumb::request_stop);
     const plumb::ParsedOptions parsed = plumb::parse_options(argc, argv);
-    return parsed.options ? plumb::run_and_report(*parsed.options) : parsed.exit_code;
+    if (parsed.options)
+        return plumb::close_stdout(plumb::run_and_report(*parsed.options));
+    fmt::print(parsed.exit_code == 0 ? stdout : stderr, "{}", parsed.text);
+    return plumb::close_stdout(parsed.exit_code);
 }

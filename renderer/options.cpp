@@ -1,14 +1,15 @@
 #include "renderer/options.h"
 
 #include "renderer/io/parse_number.h"
+#include "renderer/io/xml_text.h"
 #include "renderer/stop_options.h"
 #include "renderer/unknown_argument.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <map>
+#include <sstream>
 
 namespace plumb {
 namespace {
@@ -28,6 +29,9 @@ const Names<Isa> isa_names{{"auto", Isa::automatic},
                            {"avx512", Isa::avx512}};
 const Names<Device> device_names{
     {"cpu", Device::cpu}, {"cuda", Device::cuda}, {"auto", Device::automatic}};
+const Names<CudaTree> cuda_tree_names{{"binary", CudaTree::binary}, {"wide", CudaTree::wide}};
+const Names<CudaSchedule> cuda_schedule_names{{"megakernel", CudaSchedule::megakernel},
+                                              {"wavefront", CudaSchedule::wavefront}};
 const Names<Estimator> estimator_names{
     {"mis", Estimator::mis}, {"light", Estimator::light}, {"bsdf", Estimator::bsdf}};
 const Names<HemisphereSampling> hemisphere_names{{"cosine", HemisphereSampling::cosine},
@@ -143,15 +147,39 @@ void add_speed_flags(CLI::App& app, Options& options) {
                "Instruction set of sah; all give the same bits [auto]");
     add_choice(app, "--device", options.device, device_names,
                "Where to render; auto takes a GPU where there is one [cpu]");
+    add_choice(app, "--cuda-tree", options.cuda.tree, cuda_tree_names,
+               "Tree that a GPU traverses; the same bits [binary]");
+    add_choice(app, "--cuda-schedule", options.cuda.schedule, cuda_schedule_names,
+               "One kernel for whole paths on a GPU, or one for each step; the same bits "
+               "[megakernel]");
     add_count(app, "--threads", options.threads, 1, 1024, "Threads [all cores]");
     app.add_flag("--full-profile", options.full_profile,
                  "Use the general kernel whatever the scene needs (same bits, slower)");
 }
 
+/// --validate: a second structure, or a GPU.
+void add_validate(CLI::App& app, Options& options) {
+    app.add_option_function<std::string>(
+           "--validate",
+           [&options](const std::string& text) {
+               const auto found = accel_names.find(text);
+               if (found == accel_names.end() && text != "cuda")
+                   throw CLI::ValidationError(
+                       "--validate",
+                       fmt::format("unknown value (got '{}', expected embree, naive, sah, cuda)",
+                                   text));
+               options.validate_cuda = text == "cuda";
+               options.validate.reset();
+               if (found != accel_names.end())
+                   options.validate = found->second;
+           },
+           "Trace the render's rays with a second structure too, classify every disagreement; "
+           "exit 1 if one is unexplained. cuda: with a GPU, which has to give the same bits")
+        ->type_name("embree|naive|sah|cuda");
+}
+
 void add_validation_flags(CLI::App& app, Options& options) {
-    add_choice(app, "--validate", options.validate, accel_names,
-               "Trace the render's rays with a second structure too, classify every disagreement; "
-               "exit 1 if one is unexplained");
+    add_validate(app, options);
     app.add_option("--replay-file", options.replay_file,
                    "Where --validate writes unexplained rays for tools/bench --replay "
                    "[validate.replay]")
@@ -223,6 +251,14 @@ void add_output_flags(CLI::App& app, Options& options) {
     app.add_flag("--quiet,-q", options.quiet, "Print errors only");
 }
 
+/// An empty value is a slip (`-o "$unset"`): it must not count as a flag that was not given.
+void check_no_value_is_empty(const CLI::App& app) {
+    for (const CLI::Option* option : app.get_options())
+        for (const std::string& value : option->results())
+            if (value.empty())
+                throw CLI::ValidationError(option->get_name(), "empty value");
+}
+
 /// What CLI11 cannot see: flags that contradict each other.
 void check_contradictions(const Options& options) {
     if (options.accel == AccelKind::embree &&
@@ -235,8 +271,13 @@ void check_contradictions(const Options& options) {
         throw CLI::ValidationError("--validate", fmt::format("compares {} with itself: choose "
                                                              "another --accel or --validate",
                                                              name_of(options.accel)));
-    if (options.validate && options.device == Device::cuda)
+    if ((options.validate || options.validate_cuda) && options.device == Device::cuda)
         throw CLI::ValidationError("--validate", "needs --device=cpu");
+    if (options.validate_cuda && options.accel == AccelKind::embree)
+        throw CLI::ValidationError("--validate",
+                                   "cuda has the bits of naive and sah, not Embree's");
+    if (options.validate_cuda && options.stop.any())
+        throw CLI::ValidationError("--validate", "cuda stops neither by error nor by time");
     if (!options.validate && (options.replay_all || !options.replay_file.empty()))
         throw CLI::ValidationError(options.replay_all ? "--replay-all" : "--replay-file",
                                    "needs --validate");
@@ -274,17 +315,21 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
         app.parse(argc, argv);
         if (!app.remaining(true).empty())
             throw CLI::ValidationError("", unknown_argument(app));
+        check_no_value_is_empty(app);
         check_contradictions(options);
     } catch (const CLI::Success& request) {
-        return {std::nullopt, app.exit(request)};
+        std::ostringstream answer, none;
+        const int code = app.exit(request, answer, none);
+        return {std::nullopt, code, answer.str()};
     } catch (const CLI::ParseError& error) {
         const std::string unknown =
             app.remaining(true).empty() ? std::string() : unknown_argument(app);
-        fmt::print(stderr, "error: {} (see --help)\n", unknown.empty() ? error.what() : unknown);
-        return {std::nullopt, 2};
+        // What was typed may hold characters that a terminal obeys.
+        const std::string what = one_line(unknown.empty() ? error.what() : unknown);
+        return {std::nullopt, 2, fmt::format("error: {} (see --help)\n", what)};
     }
     options.command_line = join(argc, argv);
-    return {options, 0};
+    return {options, 0, {}};
 }
 
 void apply_options(const Options& options, Scene& scene) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "accel/intersector.h"
+#include "cuda/device_tree.h"
 #include "renderer/integrate/stopping.h"
 #include "renderer/io/load_scene.h"
 #include "renderer/io/write_images.h"
@@ -20,6 +21,7 @@ struct Options {
     AccelKind accel = AccelKind::sah;
     BuildOptions build;
     Device device = Device::cpu;
+    CudaSettings cuda;
     int threads = 0; ///< 0: all cores
     std::optional<Estimator> estimator;
     std::optional<HemisphereSampling> hemisphere;
@@ -37,16 +39,18 @@ struct Options {
     bool quiet = false;
     std::filesystem::path stats_file;
     std::optional<AccelKind> validate; ///< traces the render's rays as well
+    bool validate_cuda = false;        ///< has a GPU do it, in place of `validate`
     std::filesystem::path replay_file; ///< empty: validate.replay, if needed
     bool replay_all = false;           ///< explained disagreements too
     std::string command_line;          ///< as typed, for the image's metadata
 };
 
-/// Either options, or the exit code of a run that ends here (--help, --version, a usage error that
-/// was printed to stderr).
+/// Either options, or the exit code of a run that ends here and what it prints: --help and
+/// --version to stdout (0), a usage error of one line to stderr (2).
 struct ParsedOptions {
     std::optional<Options> options;
     int exit_code = 0;
+    std::string text;
 };
 
 [[nodiscard]] ParsedOptions parse_options(int argc, const char* const* argv);

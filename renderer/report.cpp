@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <sys/resource.h>
@@ -67,6 +66,28 @@ std::string samples_ahead(std::uint32_t spp, const StopSettings& stop) {
 
 double mebibytes(std::size_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
 
+std::string device_lines(const DeviceReport& r) {
+    std::string out =
+        fmt::format("{}: upload {}, scene {:.1f} MiB, work {:.1f} MiB\n", r.device,
+                    seconds(r.upload_s), mebibytes(r.scene_bytes), mebibytes(r.working_bytes));
+    for (const KernelReport& k : r.kernels)
+        out += fmt::format("  {:<12}{:>4} registers, {} B local memory, occupancy {:.0f} %\n",
+                           k.name, k.registers, k.local_bytes, 100 * k.occupancy);
+    return out;
+}
+
+std::string to_json(const DeviceReport& r) {
+    std::string kernels;
+    for (const KernelReport& k : r.kernels)
+        kernels += fmt::format("{}{{ \"name\": {}, \"registers\": {}, \"local_bytes\": {}, "
+                               "\"occupancy\": {:.4f} }}",
+                               kernels.empty() ? "" : ", ", json_string(k.name), k.registers,
+                               k.local_bytes, k.occupancy);
+    return fmt::format("{{ \"name\": {}, \"upload_s\": {:.6f}, \"scene_bytes\": {}, "
+                       "\"working_bytes\": {}, \"kernels\": [{}] }}",
+                       json_string(r.device), r.upload_s, r.scene_bytes, r.working_bytes, kernels);
+}
+
 } // namespace
 
 ProgressPrinter::ProgressPrinter(bool quiet, double target_error)
@@ -108,21 +129,6 @@ void ProgressPrinter::print(const ProgressState& state, double elapsed_s) {
     fmt::print(stderr, "\r[{:#<{}}{: <{}}] {} \x1b[K", "", full, "", width - full, text);
 }
 
-std::uint64_t hash_of(const Image& image) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    const auto add = [&hash](float value) {
-        const auto bits = std::bit_cast<std::uint32_t>(value);
-        for (int shift = 0; shift < 32; shift += 8)
-            hash = (hash ^ ((bits >> shift) & 0xffu)) * 0x100000001b3u;
-    };
-    for (const Rgb& p : image.pixels) {
-        add(p.r);
-        add(p.g);
-        add(p.b);
-    }
-    return hash;
-}
-
 std::size_t peak_memory() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -143,6 +149,8 @@ std::string closing_table(const RunReport& r) {
                        r.accel, mebibytes(r.build.bytes), r.render.profile,
                        r.threads == 1 ? "1 thread" : fmt::format("{} threads", r.threads), r.device,
                        mebibytes(r.peak_bytes), r.image_hash);
+    if (r.device_report)
+        out += device_lines(*r.device_report);
     if (r.render.reached)
         out += why_it_ended(r);
     return out;
@@ -159,6 +167,8 @@ std::string to_json(const RunReport& r, const Scene& scene) {
     line("scene", json_string(r.scene));
     line("accel", json_string(r.accel));
     line("device", json_string(r.device));
+    if (r.device_report)
+        line("gpu", to_json(*r.device_report));
     line("profile", json_string(r.render.profile));
     line("threads", std::to_string(r.threads));
     line("width", std::to_string(scene.film.crop.width));
@@ -191,6 +201,10 @@ std::string to_json(const RunReport& r, const Scene& scene) {
                              b.skipped_count, b.depth, b.sah_cost));
     if (r.validation)
         line("validation", to_json(*r.validation));
+    if (const auto& v = r.cuda_validation)
+        line("validation",
+             fmt::format("{{ \"second\": \"cuda\", \"rays\": {}, \"different\": {} }}",
+                         v->rays.total(), v->different.total()));
     line("peak_bytes", std::to_string(r.peak_bytes));
     line("image_hash", json_string(fmt::format("{:016x}", r.image_hash)), true);
     return out + "}\n";

@@ -2,8 +2,11 @@
 #pragma once
 
 #include "accel/intersector.h"
+#include "cuda/device_report.h"
+#include "cuda/validate_paths.h"
 #include "renderer/integrate/render.h"
 #include "renderer/options.h"
+#include "renderer/scene/image_hash.h"
 #include "renderer/validate_render.h"
 
 #include <chrono>
@@ -16,12 +19,14 @@ struct RunReport {
     std::string scene;
     std::string accel;
     std::string device = "cpu";
+    std::optional<DeviceReport> device_report; ///< of a GPU
     int threads = 1;
     StopSettings stop;
     double load_s = 0, write_s = 0, total_s = 0;
     AccelStats build;
     RenderStats render;
     std::optional<ValidationResult> validation;
+    std::optional<PathValidation> cuda_validation;
     std::uint64_t image_hash = 0; ///< of the resolved float pixels (FNV-1a, 64 bit)
     std::size_t peak_bytes = 0;   ///< largest resident set of the process
 };
@@ -47,9 +52,6 @@ class ProgressPrinter {
     bool quiet_, terminal_, printed_ = false;
 };
 
-/// FNV-1a over the bits of the pixels: equal images, equal hashes, on any machine of one
-/// endianness.
-[[nodiscard]] std::uint64_t hash_of(const Image& image);
 /// Largest resident set of this process, bytes.
 [[nodiscard]] std::size_t peak_memory();
 

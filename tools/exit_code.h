@@ -1,6 +1,7 @@
 /// \file  The one place where the exceptions of a tool become exit codes.
 #pragma once
 
+#include "cuda/device_error.h"
 #include "renderer/scene/error.h"
 
 #include <exception>
@@ -17,6 +18,9 @@ template <class F> int exit_code_of(F&& run) {
     } catch (const SceneError& error) {
         fmt::print(stderr, "{}\n", error.what());
         return error.exit_code();
+    } catch (const DeviceError& error) {
+        fmt::print(stderr, "error: {}\n", error.what());
+        return static_cast<int>(ErrorKind::resources);
     } catch (const std::bad_alloc&) {
         fmt::print(stderr, "error: out of memory\n");
         return static_cast<int>(ErrorKind::resources);

@@ -10,24 +10,30 @@ namespace {
 /// Ranges above this size are binned in chunks of it.
 constexpr std::size_t chunk_size = 1 << 15;
 
-struct Bins {
-    Box bounds[3][bin_count];
-    std::uint32_t count[3][bin_count]{};
+/// The bins of `axis_count` axes, from `first_axis` on.
+template <std::size_t axis_count> struct Bins {
+    Box bounds[axis_count][bin_count];
+    std::uint32_t count[axis_count][bin_count]{};
+    int first_axis = 0;
+
+    explicit Bins(int first) : first_axis(first) {}
 
     void add(const PrimitiveRef& ref, const BinClassifier& classifier) {
         const Float4 last = float4::broadcast(bin_count - 1);
         const Box box = ref.box();
         std::int32_t bin[4];
         float4::truncate(float4::min(classifier.position(centroid(box)), last), bin);
-        for (int axis = 0; axis < 3; ++axis) {
-            bounds[axis][bin[axis]].extend(box);
-            ++count[axis][bin[axis]];
+        for (std::size_t axis = 0; axis < axis_count; ++axis) {
+            const std::int32_t b =
+                bin[axis_count == 3 ? axis : static_cast<std::size_t>(first_axis)];
+            bounds[axis][b].extend(box);
+            ++count[axis][b];
         }
     }
     void add(std::span<const PrimitiveRef> refs, const BinClassifier& classifier) {
         std::size_t i = 0;
         if (refs.size() > 512) {
-            Bins second;
+            Bins second(first_axis);
             for (; i + 1 < refs.size(); i += 2) {
                 add(refs[i], classifier);
                 second.add(refs[i + 1], classifier);
@@ -38,13 +44,13 @@ struct Bins {
             add(refs[i], classifier);
     }
     void add(const Bins& other) {
-        for (int axis = 0; axis < 3; ++axis)
+        for (std::size_t axis = 0; axis < axis_count; ++axis)
             for (int i = 0; i < bin_count; ++i) {
                 bounds[axis][i].extend(other.bounds[axis][i]);
                 count[axis][i] += other.count[axis][i];
             }
     }
-    [[nodiscard]] Box merged(int axis, int begin, int end) const {
+    [[nodiscard]] Box merged(std::size_t axis, int begin, int end) const {
         Box box;
         for (int i = begin; i < end; ++i)
             box.extend(bounds[axis][i]);
@@ -59,13 +65,16 @@ float block_leaf_cost(std::uint32_t count) {
 }
 
 struct Plane {
-    int axis = 0, first_right_bin = 0;
+    std::size_t axis = 0; ///< of those that have bins
+    int first_right_bin = 0;
     std::uint32_t left_count = 0;
     float cost = infinity;
 };
 
 /// Costs of everything right of each plane are swept from the right, then met from the left.
-void sweep_axis(const Bins& bins, int axis, std::uint32_t total, Float4 scale, Plane& best) {
+template <std::size_t axis_count>
+void sweep_axis(const Bins<axis_count>& bins, std::size_t axis, std::uint32_t total, Float4 scale,
+                Plane& best) {
     float right_cost[bin_count];
     Box box;
     std::uint32_t count = 0;
@@ -87,21 +96,42 @@ void sweep_axis(const Bins& bins, int axis, std::uint32_t total, Float4 scale, P
     }
 }
 
+template <std::size_t axis_count>
 void bin(const PrimitiveRange& range, const BinClassifier& classifier, const Workers& workers,
-         Bins& bins) {
+         Bins<axis_count>& bins) {
     const std::size_t chunks = (range.size() + chunk_size - 1) / chunk_size;
     if (workers.count() == 1 || chunks < 4) {
         bins.add(range.refs, classifier);
         return;
     }
-    std::vector<Bins> parts(chunks);
+    std::vector<Bins<axis_count>> parts(chunks, Bins<axis_count>(bins.first_axis));
     workers.for_each(chunks, [&](std::size_t i) {
         const std::size_t begin = i * chunk_size;
         parts[i].add(range.refs.subspan(begin, std::min(chunk_size, range.size() - begin)),
                      classifier);
     });
-    for (const Bins& part : parts)
+    for (const Bins<axis_count>& part : parts)
         bins.add(part);
+}
+
+template <std::size_t axis_count>
+std::optional<BinnedSplit> best_split(const PrimitiveRange& range, int first_axis, Float4 scale,
+                                      const Workers& workers) {
+    const BinClassifier classifier(range.centroids);
+    Bins<axis_count> bins(first_axis);
+    bin(range, classifier, workers, bins);
+    Plane best;
+    for (std::size_t axis = 0; axis < axis_count; ++axis)
+        sweep_axis(bins, axis, static_cast<std::uint32_t>(range.size()), scale, best);
+    if (best.first_right_bin == 0)
+        return {};
+    return BinnedSplit{classifier,
+                       first_axis + static_cast<int>(best.axis),
+                       best.first_right_bin,
+                       best.left_count,
+                       bins.merged(best.axis, 0, best.first_right_bin),
+                       bins.merged(best.axis, best.first_right_bin, bin_count),
+                       best.cost};
 }
 
 } // namespace
@@ -116,23 +146,12 @@ BinClassifier::BinClassifier(const Box& centroids) : origin_(centroids.lower) {
                          scale(b.lower.z, b.upper.z));
 }
 
-std::optional<BinnedSplit> best_binned_split(const PrimitiveRange& range, Float4 scale,
-                                             const Workers& workers) {
-    const BinClassifier classifier(range.centroids);
-    Bins bins;
-    bin(range, classifier, workers, bins);
-    Plane best;
-    for (int axis = 0; axis < 3; ++axis)
-        sweep_axis(bins, axis, static_cast<std::uint32_t>(range.size()), scale, best);
-    if (best.first_right_bin == 0)
-        return {};
-    return BinnedSplit{classifier,
-                       best.axis,
-                       best.first_right_bin,
-                       best.left_count,
-                       bins.merged(best.axis, 0, best.first_right_bin),
-                       bins.merged(best.axis, best.first_right_bin, bin_count),
-                       best.cost};
+std::optional<BinnedSplit> best_binned_split(const PrimitiveRange& range, SplitAxes axes,
+                                             Float4 scale, const Workers& workers) {
+    if (axes == SplitAxes::widest)
+        if (const auto split = best_split<1>(range, range.widest_axis(), scale, workers))
+            return split;
+    return best_split<3>(range, 0, scale, workers);
 }
 
 void partition(const PrimitiveRange& range, const BinnedSplit& split, PrimitiveRange& left,

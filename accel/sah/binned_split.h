@@ -45,10 +45,15 @@ struct BinnedSplit {
     }
 };
 
+/// Axes along which splits are looked for: `widest` is that of the centroids' box. It takes half
+/// the time, and the trees cost a few per cent more.
+enum class SplitAxes : std::uint8_t { all, widest };
+
 /// The cheapest split with primitives on both sides; nothing where no axis has one. Areas are
 /// multiplied by scale^2: it keeps them in the range of float whatever the scene's size.
 [[nodiscard]] std::optional<BinnedSplit> best_binned_split(const PrimitiveRange& range,
-                                                           Float4 scale, const Workers& workers);
+                                                           SplitAxes axes, Float4 scale,
+                                                           const Workers& workers);
 
 /// Orders a range so that the left side comes first, and measures both sides.
 void partition(const PrimitiveRange& range, const BinnedSplit& split, PrimitiveRange& left,

@@ -30,10 +30,7 @@ constexpr int max_failures = 4;
 /// Halves the range by count along the longest axis of the centroids; ties by number.
 void halve(const PrimitiveRange& range, PrimitiveRange& left, PrimitiveRange& right,
            const Workers& workers) {
-    const Vec3 extent = range.centroids.bounds().extent();
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
-                     : extent.y >= extent.z                       ? 1
-                                                                  : 2;
+    const int axis = range.widest_axis();
     const std::size_t half = range.size() / 2;
     std::nth_element(range.refs.begin(), range.refs.begin() + static_cast<std::ptrdiff_t>(half),
                      range.refs.end(), [&](const PrimitiveRef& a, const PrimitiveRef& b) {
@@ -73,8 +70,9 @@ void share(std::size_t room, RoomyRange& left, RoomyRange& right) {
 
 class Builder {
   public:
-    Builder(const BuildContext& context, const SpatialSplitter& splitter, const Workers& workers)
-        : context_(context), splitter_(splitter), workers_(workers) {}
+    Builder(const BuildContext& context, const SpatialSplitter& splitter, SplitAxes axes,
+            const Workers& workers)
+        : context_(context), splitter_(splitter), axes_(axes), workers_(workers) {}
 
     /// Appends the subtree below a node whose bounds are set.
     void build(const RoomyRange& range, std::size_t node, int depth, TreePiece& piece) const {
@@ -103,7 +101,7 @@ class Builder {
     void split(const RoomyRange& range, int depth, RoomyRange& left, RoomyRange& right) const {
         if (must_halve(range.size(), depth))
             return halve(range, left, right, workers_);
-        const auto best = best_binned_split(range, context_.area_scale, workers_);
+        const auto best = best_binned_split(range, axes_, context_.area_scale, workers_);
         left.failures = right.failures = range.failures;
         if (range.room > 0 && range.failures < max_failures &&
             (!best || is_worth_cutting(range, *best))) {
@@ -133,6 +131,7 @@ class Builder {
 
     const BuildContext& context_;
     const SpatialSplitter& splitter_;
+    SplitAxes axes_;
     const Workers& workers_;
 };
 
@@ -170,7 +169,9 @@ BinaryBvh build_binary(const GeometryView& geometry, const BinaryBuildOptions& o
         const SpatialSplitter splitter(geometry, numbers, context.area_scale, workers);
         TreePiece root(refs.all.bounds.bounds(), count);
         const RoomyRange all{refs.all, is_ordinary(refs.all.bounds) ? room : 0};
-        Builder(context, splitter, workers).build(all, 0, 0, root);
+        const SplitAxes axes =
+            options.quality == BuildQuality::fast ? SplitAxes::widest : SplitAxes::all;
+        Builder(context, splitter, axes, workers).build(all, 0, 0, root);
         tree = assemble(root, workers);
         if (options.quality == BuildQuality::high)
             optimize_by_reinsertion(tree, {}, context.first_sphere, workers);

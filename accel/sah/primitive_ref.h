@@ -38,6 +38,11 @@ struct PrimitiveRange {
     Box bounds, centroids;
 
     [[nodiscard]] std::size_t size() const { return refs.size(); }
+    /// Along which the centroids spread most.
+    [[nodiscard]] int widest_axis() const {
+        const Vec3 extent = centroids.bounds().extent();
+        return extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    }
     void measure(const Workers& workers);
 };
 

@@ -7,6 +7,13 @@
 #include "accel/sah/child_test.h"
 
 namespace plumb {
+
+/// What a traversal tells of its steps: nothing. Tests and roof-line counts pass one that counts.
+struct NoTally {
+    RT_HD void node() {}
+    RT_HD void primitive() {}
+};
+
 namespace detail {
 
 /// No member initialisers: a stack of these must cost nothing to declare.
@@ -51,11 +58,17 @@ RT_HD inline bool visit_leaf(const SahView& view, ChildRef leaf, const PreparedR
     return false;
 }
 
+/// A leaf's primitives one by one, whichever ends the visit.
+template <class Tally> RT_HD inline void tally_leaf(ChildRef leaf, Tally& tally) {
+    for (std::uint32_t i = 0; i < leaf.count(); ++i)
+        tally.primitive();
+}
+
 } // namespace detail
 
 /// Closest hit of one ray. An invalid ray misses.
-template <TriangleTest Test>
-[[nodiscard]] RT_HD inline Hit closest(const SahView& view, const Ray& ray) {
+template <TriangleTest Test, class Tally = NoTally>
+[[nodiscard]] RT_HD inline Hit closest(const SahView& view, const Ray& ray, Tally&& tally = {}) {
     if (!is_valid(ray))
         return {};
     const PreparedRay prepared(ray);
@@ -67,7 +80,8 @@ template <TriangleTest Test>
     ChildRef current = ChildRef::node(0);
     for (;;) {
         if (!current.is_leaf()) {
-            const SahNode& node = view.nodes[current.first];
+            const SahNode node = view.nodes[current.first]; // whole: four wide loads
+            tally.node();
             const ChildOverlap overlap = test(node);
             if (overlap.mask != 0) {
                 // The nearer child now, the other later.
@@ -90,6 +104,7 @@ template <TriangleTest Test>
                 detail::keep_closer(hit, geometry, primitive, best);
                 return false;
             };
+            detail::tally_leaf(current, tally);
             detail::visit_leaf<Test>(view, current, prepared, best.t, keep);
             test.limit(best.t);
         }
@@ -106,8 +121,8 @@ template <TriangleTest Test>
 }
 
 /// Whether any hit exists; equal to closest(view, ray).valid().
-template <TriangleTest Test>
-[[nodiscard]] RT_HD inline bool occluded(const SahView& view, const Ray& ray) {
+template <TriangleTest Test, class Tally = NoTally>
+[[nodiscard]] RT_HD inline bool occluded(const SahView& view, const Ray& ray, Tally&& tally = {}) {
     if (!is_valid(ray))
         return false;
     const PreparedRay prepared(ray);
@@ -117,7 +132,8 @@ template <TriangleTest Test>
     ChildRef current = ChildRef::node(0);
     for (;;) {
         if (!current.is_leaf()) {
-            const SahNode& node = view.nodes[current.first];
+            const SahNode node = view.nodes[current.first]; // whole: four wide loads
+            tally.node();
             const unsigned mask = test(node).mask;
             if (mask != 0) {
                 if (mask == 3)
@@ -125,10 +141,11 @@ template <TriangleTest Test>
                 current = mask == 2 ? node.child[1] : node.child[0];
                 continue;
             }
-        } else if (detail::visit_leaf<Test>(
-                       view, current, prepared, ray.tmax,
-                       [](const PrimitiveHit&, std::uint32_t, std::uint32_t) { return true; })) {
-            return true;
+        } else {
+            detail::tally_leaf(current, tally);
+            const auto any = [](const PrimitiveHit&, std::uint32_t, std::uint32_t) { return true; };
+            if (detail::visit_leaf<Test>(view, current, prepared, ray.tmax, any))
+                return true;
         }
         if (size == 0)
             return false;

@@ -23,8 +23,8 @@ struct Choice {
 
 class Planner {
   public:
-    Planner(const BinaryBvh& tree, PrimitiveNumber first_sphere)
-        : tree_(tree), first_sphere_(first_sphere), choices_(tree.nodes.size()) {
+    Planner(const BinaryBvh& tree, PrimitiveNumber first_sphere, const WideCosts& costs)
+        : tree_(tree), first_sphere_(first_sphere), costs_(costs), choices_(tree.nodes.size()) {
         const double root_area = surface_area(tree.nodes[0].bounds);
         per_area_ = root_area > 0 ? 1 / root_area : 1;
     }
@@ -72,12 +72,13 @@ class Planner {
                 }
             }
         }
-        const bool fits = left.leaf_size + right.leaf_size <= wide_width &&
-                          left.spheres == right.spheres && left.leaf_size != 255;
+        const bool fits =
+            static_cast<std::uint32_t>(left.leaf_size + right.leaf_size) <= costs_.max_leaf &&
+            left.spheres == right.spheres && left.leaf_size != 255;
         choice.leaf_size =
             fits ? static_cast<std::uint8_t>(left.leaf_size + right.leaf_size) : std::uint8_t{255};
         choice.spheres = left.spheres;
-        const auto inner = static_cast<float>(area * wide_node_cost) + best[wide_width];
+        const auto inner = static_cast<float>(area) + best[wide_width];
         const auto leaf = fits ? static_cast<float>(area * leaf_cost(choice.leaf_size))
                                : std::numeric_limits<float>::infinity();
         choice.as_leaf = leaf <= inner;
@@ -92,8 +93,8 @@ class Planner {
         }
     }
 
-    static double leaf_cost(std::uint32_t count) {
-        return wide_block_cost + wide_primitive_cost * count;
+    [[nodiscard]] double leaf_cost(std::uint32_t count) const {
+        return costs_.leaf + costs_.primitive * count;
     }
 
     /// Adds the roots of the forest of at most `slots` children that a subtree was to become.
@@ -147,6 +148,7 @@ class Planner {
 
     const BinaryBvh& tree_;
     PrimitiveNumber first_sphere_;
+    const WideCosts& costs_;
     std::vector<Choice> choices_;
     double per_area_ = 1;
     WidePlan plan_;
@@ -166,8 +168,8 @@ void append_primitives(const BinaryBvh& tree, std::uint32_t node,
     append_primitives(tree, n.first + 1, numbers);
 }
 
-WidePlan plan_wide(const BinaryBvh& tree, PrimitiveNumber first_sphere) {
-    return tree.nodes.empty() ? WidePlan{} : Planner(tree, first_sphere).run();
+WidePlan plan_wide(const BinaryBvh& tree, PrimitiveNumber first_sphere, const WideCosts& costs) {
+    return tree.nodes.empty() ? WidePlan{} : Planner(tree, first_sphere, costs).run();
 }
 
 } // namespace plumb

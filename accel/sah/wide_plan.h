@@ -8,10 +8,13 @@
 
 namespace plumb {
 
-/// Costs of the surface area heuristic for the wide tree, in units of one node visited.
-inline constexpr double wide_node_cost = 1;
-inline constexpr double wide_block_cost = 2;       ///< a block of up to eight primitives
-inline constexpr double wide_primitive_cost = 0.1; ///< each primitive of a block
+/// Costs of the surface area heuristic for the wide tree, in units of one node visited, and what a
+/// leaf may hold. These are the CPU's, where a leaf is a block of eight lanes.
+struct WideCosts {
+    double leaf = 2;        ///< a leaf as such
+    double primitive = 0.1; ///< each primitive of a leaf
+    std::uint32_t max_leaf = wide_width;
+};
 
 /// One wide node to be.
 struct PlannedNode {
@@ -39,6 +42,8 @@ struct WidePlan {
 void append_primitives(const BinaryBvh& tree, std::uint32_t node,
                        std::vector<PrimitiveNumber>& numbers);
 
-[[nodiscard]] WidePlan plan_wide(const BinaryBvh& tree, PrimitiveNumber first_sphere);
+/// Leaves of `tree` must hold no more than costs.max_leaf.
+[[nodiscard]] WidePlan plan_wide(const BinaryBvh& tree, PrimitiveNumber first_sphere,
+                                 const WideCosts& costs = {});
 
 } // namespace plumb

@@ -245,7 +245,12 @@ void ObjReader::assemble_corners(Mesh& mesh) const {
 
 Mesh read_obj(const std::filesystem::path& file, std::vector<std::string>& warnings) {
     const MappedFile mapped(file, ErrorKind::mesh);
-    return ObjReader(file, mapped.text(), warnings).read();
+    return read_obj_text(file, mapped.text(), warnings);
+}
+
+Mesh read_obj_text(const std::filesystem::path& file, std::string_view text,
+                   std::vector<std::string>& warnings) {
+    return ObjReader(file, text, warnings).read();
 }
 
 } // namespace plumb

@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace plumb {
@@ -35,5 +36,9 @@ namespace plumb {
 /// are missing, superfluous, not finite, or beyond 1.8e18 (max_coordinate); a line longer than
 /// 32 MiB; and for what MappedFile refuses.
 [[nodiscard]] Mesh read_obj(const std::filesystem::path& file, std::vector<std::string>& warnings);
+
+/// The same for the bytes of a file; `file` is its name, for messages and for the mesh.
+[[nodiscard]] Mesh read_obj_text(const std::filesystem::path& file, std::string_view text,
+                                 std::vector<std::string>& warnings);
 
 } // namespace plumb

@@ -202,7 +202,12 @@ void check_header(const LineCursor& text, const PlyHeader& header) {
 
 Mesh read_ply(const std::filesystem::path& file, std::vector<std::string>& warnings) {
     const MappedFile mapped(file, ErrorKind::mesh);
-    LineCursor text(file.string(), mapped.text());
+    return read_ply_text(file, mapped.text(), warnings);
+}
+
+Mesh read_ply_text(const std::filesystem::path& file, std::string_view bytes,
+                   std::vector<std::string>& warnings) {
+    LineCursor text(file.string(), bytes);
     const PlyHeader header = read_ply_header(text);
     check_header(text, header);
     Mesh mesh;
@@ -217,7 +222,7 @@ Mesh read_ply(const std::filesystem::path& file, std::vector<std::string>& warni
     if (header.format == PlyFormat::ascii)
         read_body(PlyAsciiBody(text));
     else
-        read_body(PlyBinaryBody(file.string(), mapped.text(), text.rest(), header.format));
+        read_body(PlyBinaryBody(file.string(), bytes, text.rest(), header.format));
     if (trailing > 0)
         warnings.push_back(file.string() + ": warning: " + std::to_string(trailing) +
                            " bytes after the last element are ignored");

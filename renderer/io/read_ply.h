@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace plumb {
@@ -26,5 +27,9 @@ namespace plumb {
 /// strips, a truncated body, rows too short or too long, lists of fewer than 3 indices, indices out
 /// of range, numbers that are not finite or beyond 1.8e18; and for what MappedFile refuses.
 [[nodiscard]] Mesh read_ply(const std::filesystem::path& file, std::vector<std::string>& warnings);
+
+/// The same for the bytes of a file; `file` is its name, for messages and for the mesh.
+[[nodiscard]] Mesh read_ply_text(const std::filesystem::path& file, std::string_view bytes,
+                                 std::vector<std::string>& warnings);
 
 } // namespace plumb

@@ -64,6 +64,15 @@ int different_bits(const Intersector& a, const Intersector& b, const TestGeometr
     return differ;
 }
 
+/// sah as the CPU traverses it, and the two trees that a device does.
+std::vector<std::unique_ptr<Intersector>> sah_trees(const GeometryView& view, TriangleTest test) {
+    std::vector<std::unique_ptr<Intersector>> trees;
+    trees.push_back(make_intersector(AccelKind::sah, view, {test}));
+    trees.push_back(std::make_unique<BinaryOnHost>(build_sah(view), test));
+    trees.push_back(std::make_unique<CompressedOnHost>(build_compressed(view), test));
+    return trees;
+}
+
 class NaiveAndSah : public testing::TestWithParam<TriangleTest> {};
 INSTANTIATE_TEST_SUITE_P(Every, NaiveAndSah,
                          testing::Values(TriangleTest::watertight, TriangleTest::moeller_trumbore),
@@ -76,8 +85,8 @@ TEST_P(NaiveAndSah, GiveTheSameBitsInEveryScene) {
     for (const NamedScene& scene : all_scenes()) {
         const GeometryView view = scene.geometry.view();
         const auto naive = make_intersector(AccelKind::naive, view, {GetParam()});
-        const auto sah = make_intersector(AccelKind::sah, view, {GetParam()});
-        EXPECT_EQ(different_bits(*naive, *sah, scene.geometry, 40000), 0) << scene.name;
+        for (const auto& sah : sah_trees(view, GetParam()))
+            EXPECT_EQ(different_bits(*naive, *sah, scene.geometry, 40000), 0) << scene.name;
     }
 }
 
@@ -90,14 +99,16 @@ TEST_P(NaiveAndSah, GiveTheSameBitsFarFromTheOriginAndInTinyAndHugeScenes) {
                 p = scale * (p + Vec3{shift, -shift, 0.5f * shift});
             const TestGeometry scene(std::move(mesh));
             const auto naive = make_intersector(AccelKind::naive, scene.view(), {GetParam()});
-            const auto sah = make_intersector(AccelKind::sah, scene.view(), {GetParam()});
+            const auto trees = sah_trees(scene.view(), GetParam());
             int differ = 0, hits = 0;
             for (int i = 0; i < 20000; ++i) {
                 Ray ray = random_ray(random);
                 ray.origin = scale * (ray.origin + Vec3{shift, -shift, 0.5f * shift});
                 const Hit a = naive->closest(ray);
-                differ += !same_bits(a, sah->closest(ray));
-                differ += sah->occluded(ray) != a.valid();
+                for (const auto& sah : trees) {
+                    differ += !same_bits(a, sah->closest(ray));
+                    differ += sah->occluded(ray) != a.valid();
+                }
                 hits += a.valid();
             }
             EXPECT_EQ(differ, 0) << scale << ' ' << shift;
@@ -116,8 +127,8 @@ TEST_P(NaiveAndSah, GiveTheSameBitsOnGarbage) {
         TestGeometry scene(std::move(mesh));
         scene.add(Sphere{{number(), 0, 0}, number()});
         const auto naive = make_intersector(AccelKind::naive, scene.view(), {GetParam()});
-        const auto sah = make_intersector(AccelKind::sah, scene.view(), {GetParam()});
-        differ += different_bits(*naive, *sah, scene, 100);
+        for (const auto& sah : sah_trees(scene.view(), GetParam()))
+            differ += different_bits(*naive, *sah, scene, 100);
     }
     EXPECT_EQ(differ, 0);
 }

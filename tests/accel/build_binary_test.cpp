@@ -81,7 +81,8 @@ TEST(BuildBinary, IsTheSameForAnyNumberOfThreads) {
 
 TEST(BuildBinary, MoreQualityCostsNoMore) {
     // The median split of the naive tree bounds them all. Greedy choices have no guarantee among
-    // themselves: a spatial split that is better here can be worse further down.
+    // themselves: a split that is better here, on another axis or of space, can be worse further
+    // down.
     for (const NamedScene& scene : hard_scenes()) {
         const GeometryView view = scene.geometry.view();
         const NaiveTree naive = build_naive(view);
@@ -91,9 +92,34 @@ TEST(BuildBinary, MoreQualityCostsNoMore) {
         const double medium = model_cost(build(view, BuildQuality::medium));
         const double high = model_cost(build(view, BuildQuality::high));
         EXPECT_LE(fast, model_cost(naive) * (1 + 1e-9)) << scene.name;
-        EXPECT_LE(medium, 1.02 * fast) << scene.name;
+        EXPECT_LE(medium, 1.05 * fast) << scene.name;
         EXPECT_LE(high, 1.001 * medium) << scene.name;
     }
+}
+
+/// Two flat layers, longer than they are apart: the best split is between them, the widest axis
+/// runs along them.
+TEST(BuildBinary, FastSplitsAcrossTheWidestAxisOnly) {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+    Random random(7);
+    for (std::uint32_t i = 0; i < 400; ++i) {
+        const Vec3 at{random.uniform(0, 10), i % 2 == 0 ? 0.0f : 5.0f, random.uniform(0, 4)};
+        triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        for (const Vec3 corner : {Vec3{0, 0, 0}, Vec3{0.1f, 0, 0}, Vec3{0, 0.1f, 0.1f}})
+            positions.push_back(at + corner);
+    }
+    const MeshView mesh{positions, triangles};
+    const auto overlap = [&](BuildQuality quality, int axis) {
+        const BinaryBvh tree = build({{&mesh, 1}, {}}, quality);
+        const Bounds a = tree.nodes[tree.nodes[0].first].bounds;
+        const Bounds b = tree.nodes[tree.nodes[0].first + 1].bounds;
+        return std::min(a.upper[axis], b.upper[axis]) > std::max(a.lower[axis], b.lower[axis]) + 1;
+    };
+    EXPECT_TRUE(overlap(BuildQuality::fast, 1));
+    EXPECT_FALSE(overlap(BuildQuality::fast, 0));
+    EXPECT_FALSE(overlap(BuildQuality::medium, 1));
+    EXPECT_TRUE(overlap(BuildQuality::medium, 0));
 }
 
 TEST(BuildBinary, FillsItsLeaves) {

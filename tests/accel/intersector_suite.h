@@ -3,6 +3,11 @@
 
 #include "accel/intersector.h"
 #include "tests/support/brute_force.h"
+<<<<<<< HEAD
+#include "tests/support/device_trees.h"
+=======
+#include "tests/support/hits.h"
+>>>>>>> fuzz
 #include "tests/support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -17,11 +22,15 @@
 
 namespace plumb::test {
 
+/// Trees of kind sah that a device reads, on the host.
+enum class DeviceTree : std::uint8_t { none, binary, compressed };
+
 struct Config {
     AccelKind kind;
     TriangleTest test = TriangleTest::watertight;
     Isa isa = Isa::automatic;
     BuildQuality quality = BuildQuality::medium;
+    DeviceTree device = DeviceTree::none;
 };
 
 inline std::string name_of(const Config& c) {
@@ -30,6 +39,8 @@ inline std::string name_of(const Config& c) {
         name += "_" + std::string(plumb::name_of(c.isa));
     if (c.quality != BuildQuality::medium)
         name += "_" + std::string(plumb::name_of(c.quality));
+    if (c.device != DeviceTree::none)
+        name += c.device == DeviceTree::binary ? "_device_binary" : "_device_compressed";
     return name + (c.test == TriangleTest::watertight ? "" : "MoellerTrumbore");
 }
 inline void PrintTo(const Config& c, std::ostream* out) { *out << name_of(c); }
@@ -43,6 +54,10 @@ class IntersectorTest : public testing::TestWithParam<Config> {
   protected:
     [[nodiscard]] static std::unique_ptr<Intersector> build(const GeometryView& view) {
         const Config& c = GetParam();
+        if (c.device == DeviceTree::binary)
+            return std::make_unique<BinaryOnHost>(build_sah(view), c.test);
+        if (c.device == DeviceTree::compressed)
+            return std::make_unique<CompressedOnHost>(build_compressed(view), c.test);
         return make_intersector(c.kind, view, {c.test, c.quality, c.isa});
     }
 };
@@ -51,6 +66,7 @@ inline std::string config_name(const testing::TestParamInfo<Config>& info) {
     return name_of(info.param);
 }
 
+<<<<<<< HEAD
 /// The instruction sets that this processor has, and `automatic`.
 inline std::vector<Isa> isas_here() {
     std::vector<Isa> isas{Isa::automatic};
@@ -66,7 +82,10 @@ inline std::vector<Isa> isas_here() {
     return isas;
 }
 
+/// sah in every instruction set, in the other qualities, and as a device reads it.
+=======
 /// sah in every instruction set, and in the other qualities.
+>>>>>>> fuzz
 inline std::vector<Config> sah_configs(TriangleTest test) {
     std::vector<Config> configs;
     for (const Isa isa : isas_here())
@@ -74,6 +93,8 @@ inline std::vector<Config> sah_configs(TriangleTest test) {
     for (const BuildQuality quality : {BuildQuality::fast, BuildQuality::high})
         configs.push_back({AccelKind::sah, test, Isa::automatic, quality});
     configs.push_back({AccelKind::sah, test, Isa::portable, BuildQuality::high});
+    for (const DeviceTree device : {DeviceTree::binary, DeviceTree::compressed})
+        configs.push_back({AccelKind::sah, test, Isa::automatic, BuildQuality::medium, device});
     return configs;
 }
 
@@ -101,13 +122,6 @@ inline auto watertight_configs() {
     std::vector<Config> configs = own_config_list(false);
     configs.push_back(embree_config);
     return testing::ValuesIn(configs);
-}
-
-inline bool same_bits(const Hit& a, const Hit& b) {
-    return std::bit_cast<std::uint32_t>(a.t) == std::bit_cast<std::uint32_t>(b.t) &&
-           std::bit_cast<std::uint32_t>(a.u) == std::bit_cast<std::uint32_t>(b.u) &&
-           std::bit_cast<std::uint32_t>(a.v) == std::bit_cast<std::uint32_t>(b.v) &&
-           a.geometry == b.geometry && a.primitive == b.primitive && a.instance == b.instance;
 }
 
 inline bool is_miss(const Hit& hit) { return same_bits(hit, Hit{}); }

@@ -1,5 +1,6 @@
 /// \file  The statistics the other tests decide with, against published values.
 
+#include "tests/support/moments.h"
 #include "tests/support/random.h"
 #include "tests/support/statistics.h"
 
@@ -111,6 +112,63 @@ TEST(Statistics, RandomHasTheMomentsOfUniformNumbers) {
     EXPECT_NEAR(mean.variance(), 1.0 / 12, 0.01 / 12);
     EXPECT_LE(std::fabs(z.z(0)), z_limit);
     EXPECT_NEAR(z.variance(), 1.0 / 3, 0.01 / 3);
+}
+
+/// Kurtosis of the uniform distribution 9/5, of the exponential one 9, of a coin with p = 1/10
+/// 1/(p(1-p)) - 3.
+TEST(Moments, AreThoseOfKnownDistributions) {
+    Random random(3);
+    Moments uniform, exponential, coin;
+    for (int i = 0; i < 400000; ++i) {
+        uniform.add(1000 + random.uniform_double());
+        exponential.add(-2 * std::log1p(-random.uniform_double()));
+        coin.add(random.uniform_double() < 0.1 ? 7 : 2);
+    }
+    EXPECT_NEAR(uniform.mean(), 1000.5, 3e-3);
+    EXPECT_NEAR(uniform.variance() * 12, 1, 5e-3);
+    EXPECT_NEAR(uniform.kurtosis(), 1.8, 0.01);
+    EXPECT_NEAR(exponential.variance(), 4, 0.1);
+    EXPECT_NEAR(exponential.kurtosis(), 9, 0.6);
+    EXPECT_NEAR(coin.variance(), 25 * 0.09, 0.03);
+    EXPECT_NEAR(coin.kurtosis(), 1 / 0.09 - 3, 0.15);
+    Moments constant;
+    constant.add(2);
+    constant.add(2);
+    EXPECT_EQ(constant.variance(), 0);
+    EXPECT_EQ(constant.kurtosis(), 1);
+}
+
+TEST(Moments, OfPartsMergeToThoseOfTheWhole) {
+    Random random(4);
+    Moments whole, part, parts;
+    for (int i = 0; i < 5000; ++i) {
+        const double x = -50 - std::log1p(-random.uniform_double());
+        whole.add(x);
+        part.add(x);
+        if (i % 700 == 13 || i == 4999) {
+            parts.merge(part);
+            part = {};
+        }
+    }
+    EXPECT_EQ(parts.count(), whole.count());
+    EXPECT_NEAR(parts.mean(), whole.mean(), 1e-12);
+    EXPECT_NEAR(parts.variance(), whole.variance(), 1e-11);
+    EXPECT_NEAR(parts.kurtosis(), whole.kurtosis(), 1e-9);
+    EXPECT_EQ(parts.max_abs(), whole.max_abs());
+}
+
+/// The spread of 2000 sample variances of 200 exponential numbers each.
+TEST(Moments, TheErrorOfTheVarianceFollowsFromTheKurtosis) {
+    Random random(5);
+    Moments variances;
+    for (int repetition = 0; repetition < 2000; ++repetition) {
+        Moments sample;
+        for (int i = 0; i < 200; ++i)
+            sample.add(-std::log1p(-random.uniform_double()));
+        variances.add(sample.variance());
+    }
+    EXPECT_NEAR(variances.mean(), 1, 0.03);
+    EXPECT_NEAR(std::sqrt(variances.variance()) / relative_error_of_variance(9, 200), 1, 0.1);
 }
 
 } // namespace

@@ -23,7 +23,7 @@ TEST(CudaRender, WithoutADeviceItThrowsTheSame) {
         GTEST_SKIP() << "there is a device";
     RenderStats stats;
     try {
-        static_cast<void>(render_on_cuda({}, {}, {}, TriangleTest::watertight, {}, stats));
+        static_cast<void>(render_on_cuda({}, {}, {}, TriangleTest::watertight, {}, {}, stats));
         FAIL() << "rendered";
     } catch (const DeviceError& error) {
         EXPECT_EQ(error.what(), why);

@@ -1,8 +1,10 @@
 /// \file  Images rendered on a GPU have the CPU's bits, for every scene of the project.
 
 #include "cuda/cuda_render.h"
+#include "tests/cuda/project_scenes.h"
 #include "tests/support/render_scene.h"
 
+#include "accel/sah/build_compressed.h"
 #include "accel/sah/build_sah.h"
 #include "renderer/scene/scene_tables.h"
 
@@ -10,16 +12,6 @@
 
 namespace plumb::test {
 namespace {
-
-std::vector<std::filesystem::path> project_scenes() {
-    std::vector<std::filesystem::path> scenes;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(std::filesystem::path(PLUMB_SOURCE_DIR) / "scenes"))
-        if (entry.path().extension() == ".xml")
-            scenes.push_back(entry.path());
-    std::sort(scenes.begin(), scenes.end());
-    return scenes;
-}
 
 struct Variant {
     SamplerKind sampler = SamplerKind::sobol;
@@ -37,28 +29,35 @@ class OnDevice : public ::testing::TestWithParam<std::filesystem::path> {
     }
 
     static void expect_the_bits_of_the_cpu(const Variant& variant) {
-        Scene scene = load_scene({GetParam(), {{"res", "97"}, {"spp", "4"}}, false});
+        Scene scene = load_project_scene(GetParam(), {{"res", "97"}, {"spp", "4"}});
         scene.sampler.kind = variant.sampler;
         scene.path.estimator = variant.estimator;
         const SceneTables tables(scene);
         const auto sah =
             make_intersector(AccelKind::sah, tables.geometry(), {variant.triangle_test});
-        const SahTree tree = build_sah(tables.geometry());
+        const SahTree binary = build_sah(tables.geometry());
+        const CompressedTree wide = build_compressed(tables.geometry());
+        const TreeViews trees{binary.view(), wide.view()};
         const RenderJob job = make_job(scene, tables.view());
         const Features needed = features_of(scene);
         RenderOptions how;
         how.variance = true;
         how.force_full_profile = variant.full_profile;
-        RenderStats cpu_stats, gpu_stats;
+        RenderStats cpu_stats;
         const Image cpu = render(job, needed, *sah, how, cpu_stats).resolve();
-        const Image gpu =
-            render_on_cuda(job, needed, tree.view(), variant.triangle_test, how, gpu_stats)
-                .resolve();
-        EXPECT_EQ(bits_of(cpu), bits_of(gpu));
-        EXPECT_EQ(cpu.variance, gpu.variance);
-        EXPECT_EQ(cpu_stats.rays.camera, gpu_stats.rays.camera);
-        EXPECT_EQ(cpu_stats.rays.bounce, gpu_stats.rays.bounce);
-        EXPECT_EQ(cpu_stats.rays.shadow, gpu_stats.rays.shadow);
+        for (const CudaTree tree : {CudaTree::binary, CudaTree::wide})
+            for (const CudaSchedule schedule :
+                 {CudaSchedule::megakernel, CudaSchedule::wavefront}) {
+                RenderStats gpu_stats;
+                const Image gpu = render_on_cuda(job, needed, trees, variant.triangle_test,
+                                                 {tree, schedule}, how, gpu_stats)
+                                      .resolve();
+                EXPECT_EQ(bits_of(cpu), bits_of(gpu)) << name_of(tree) << name_of(schedule);
+                EXPECT_EQ(cpu.variance, gpu.variance);
+                EXPECT_EQ(cpu_stats.rays.camera, gpu_stats.rays.camera);
+                EXPECT_EQ(cpu_stats.rays.bounce, gpu_stats.rays.bounce);
+                EXPECT_EQ(cpu_stats.rays.shadow, gpu_stats.rays.shadow);
+            }
     }
 };
 
@@ -81,11 +80,7 @@ TEST_P(OnDevice, MoellerTrumboreAndBsdfSamplingHaveTheBitsOfTheCpu) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, OnDevice, ::testing::ValuesIn(project_scenes()),
-                         [](const auto& scene) {
-                             std::string name = scene.param.stem().string();
-                             std::replace(name.begin(), name.end(), '-', '_');
-                             return name;
-                         });
+                         project_scene_name);
 
 } // namespace
 } // namespace plumb::test

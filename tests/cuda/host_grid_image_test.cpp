@@ -1,9 +1,10 @@
 /// \file  The GPU's kernel body, indexing, copies and batches, run on the host, give the CPU's
 /// bits.
 
-#include "tests/cuda/host_executor.h"
+#include "cuda/host_grid.h"
 #include "tests/support/box_scenes.h"
 
+#include "accel/sah/build_compressed.h"
 #include "accel/sah/build_sah.h"
 #include "renderer/io/load_scene.h"
 #include "renderer/scene/scene_tables.h"
@@ -16,11 +17,11 @@ namespace plumb::test {
 namespace {
 
 Scene load_text(const std::string& xml) {
+    const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string(test.test_suite_name()) + "_" + test.name() + ".xml";
+    std::replace(name.begin(), name.end(), '/', '_');
     const std::filesystem::path file =
-        std::filesystem::path(::testing::TempDir()) /
-        (std::string("plumb_") +
-         ::testing::UnitTest::GetInstance()->current_test_info()->test_suite_name() + "_" +
-         ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".xml");
+        std::filesystem::path(::testing::TempDir()) / ("plumb_" + name);
     std::ofstream(file, std::ios::binary) << xml;
     Scene scene = load_scene({file, {{"side", "21"}, {"spp", "5"}, {"sampler", "sobol"}}, false});
     std::filesystem::remove(file);
@@ -32,11 +33,6 @@ Scene load_text(const std::string& xml) {
 struct Outcome {
     Image image;
     RenderStats stats;
-};
-
-/// How the host runs the grid.
-struct GridSetup {
-    std::uint32_t block_size = 32, chunk_pixels = 100;
 };
 
 Outcome on_cpu(const Scene& scene, AccelKind kind, RenderOptions how = {},
@@ -51,24 +47,38 @@ Outcome on_cpu(const Scene& scene, AccelKind kind, RenderOptions how = {},
     return result;
 }
 
-template <Features F, TriangleTest Test = TriangleTest::watertight>
-Outcome on_grid(const Scene& scene, const GridSetup& setup = {}, const RenderOptions& how = {}) {
+/// Blocks and chunks that do not divide 441 pixels.
+constexpr HostGrid small_grid{32, 100, 250, 0};
+
+/// Trees and schedules: all give the same bits.
+constexpr CudaSettings all_settings[] = {{CudaTree::binary, CudaSchedule::megakernel},
+                                         {CudaTree::wide, CudaSchedule::megakernel},
+                                         {CudaTree::binary, CudaSchedule::wavefront},
+                                         {CudaTree::wide, CudaSchedule::wavefront}};
+
+Outcome on_grid(const Scene& scene, const CudaSettings& settings, const RenderOptions& how = {},
+                const HostGrid& grid = small_grid, TriangleTest test = TriangleTest::watertight) {
     const SceneTables tables(scene);
-    const SahTree tree = build_sah(tables.geometry());
-    const RenderJob job = make_job(scene, tables.view());
-    HostBlock block(placed_size(job, tree.view()));
-    Arena arena = block.arena();
-    DeviceJob device;
-    device.job = job;
-    device.job.scene = place(job.scene, arena);
-    device.tree = place(tree.view(), arena);
-    device.with_variance = how.variance;
-    HostExecutor<F, Test> executor(device, setup.block_size);
+    const SahTree binary = build_sah(tables.geometry());
+    const CompressedTree wide = build_compressed(tables.geometry());
+    TreeViews trees; // the other one is not there
+    if (settings.tree == CudaTree::binary)
+        trees.binary = binary.view();
+    else
+        trees.wide = wide.view();
     Outcome result;
-    result.image =
-        BatchRenderer(job, how, executor, result.stats).render(setup.chunk_pixels).resolve();
+    result.image = render_on_host_grid(make_job(scene, tables.view()), features_of(scene), trees,
+                                       test, settings, grid, how, result.stats)
+                       .resolve();
     return result;
 }
+
+class HostGridImage : public ::testing::TestWithParam<CudaSettings> {};
+INSTANTIATE_TEST_SUITE_P(Every, HostGridImage, ::testing::ValuesIn(all_settings),
+                         [](const auto& settings) {
+                             return std::string(name_of(settings.param.tree)) + "_" +
+                                    std::string(name_of(settings.param.schedule));
+                         });
 
 void expect_same_bits(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
     ASSERT_EQ(a.size(), b.size());
@@ -90,56 +100,80 @@ void expect_same(const Outcome& a, const Outcome& b) {
     EXPECT_EQ(a.stats.samples, b.stats.samples);
 }
 
-TEST(HostGrid, BoxKernelGivesTheBitsOfSahAndNaive) {
+TEST_P(HostGridImage, BoxKernelGivesTheBitsOfSahAndNaive) {
     const Scene scene = load_text(plain_box());
-    const Outcome grid = on_grid<box_profile>(scene);
+    const Outcome grid = on_grid(scene, GetParam());
+    EXPECT_EQ(grid.stats.profile, "box");
     EXPECT_GT(grid.stats.rays.shadow, 0u);
     expect_same(grid, on_cpu(scene, AccelKind::sah));
     expect_same(grid, on_cpu(scene, AccelKind::naive));
 }
 
-TEST(HostGrid, FullKernelGivesTheBitsOfSahAndNaive) {
+TEST_P(HostGridImage, FullKernelGivesTheBitsOfSahAndNaive) {
     const Scene scene = load_text(rich_box());
-    const Outcome grid = on_grid<full_profile>(scene);
+    const Outcome grid = on_grid(scene, GetParam());
+    EXPECT_EQ(grid.stats.profile, "full");
     expect_same(grid, on_cpu(scene, AccelKind::sah));
     expect_same(grid, on_cpu(scene, AccelKind::naive));
 }
 
-TEST(HostGrid, FullKernelGivesTheBitsOfTheBoxKernel) {
+TEST_P(HostGridImage, FullKernelGivesTheBitsOfTheBoxKernel) {
     const Scene scene = load_text(plain_box());
-    expect_same(on_grid<full_profile>(scene), on_grid<box_profile>(scene));
+    RenderOptions full;
+    full.force_full_profile = true;
+    const Outcome grid = on_grid(scene, GetParam(), full);
+    EXPECT_EQ(grid.stats.profile, "full");
+    expect_same(grid, on_grid(scene, GetParam()));
 }
 
-TEST(HostGrid, MoellerTrumboreGivesTheBitsOfTheCpu) {
+TEST_P(HostGridImage, MoellerTrumboreGivesTheBitsOfTheCpu) {
     constexpr TriangleTest test = TriangleTest::moeller_trumbore;
     const Scene scene = load_text(rich_box());
-    expect_same(on_grid<full_profile, test>(scene), on_cpu(scene, AccelKind::sah, {}, test));
+    expect_same(on_grid(scene, GetParam(), {}, small_grid, test),
+                on_cpu(scene, AccelKind::sah, {}, test));
 }
 
-TEST(HostGrid, VarianceHasTheBitsOfTheCpu) {
+TEST_P(HostGridImage, VarianceHasTheBitsOfTheCpu) {
     RenderOptions how;
     how.variance = true;
     const Scene scene = load_text(plain_box());
-    const Outcome grid = on_grid<box_profile>(scene, {}, how);
+    const Outcome grid = on_grid(scene, GetParam(), how);
     EXPECT_EQ(grid.image.variance.size(), grid.image.pixels.size());
     expect_same(grid, on_cpu(scene, AccelKind::sah, how));
 }
 
-TEST(HostGrid, CropHasTheBitsOfTheCpu) {
+TEST_P(HostGridImage, CropHasTheBitsOfTheCpu) {
     Scene scene = load_text(plain_box());
     scene.film.crop = {3, 5, 11, 7};
-    expect_same(on_grid<box_profile>(scene), on_cpu(scene, AccelKind::sah));
+    expect_same(on_grid(scene, GetParam()), on_cpu(scene, AccelKind::sah));
 }
 
-TEST(HostGrid, CutsIntoBlocksAndChunksChangeNoBit) {
+TEST_P(HostGridImage, LimitsOfDepthAndNoRouletteHaveTheBitsOfTheCpu) {
+    Scene scene = load_text(rich_box());
+    for (const int depth : {1, 2, 3}) {
+        scene.path.max_depth = depth;
+        scene.path.roulette = depth == 2 ? RouletteKind::none : RouletteKind::constant;
+        expect_same(on_grid(scene, GetParam()), on_cpu(scene, AccelKind::sah));
+    }
+}
+
+TEST_P(HostGridImage, CutsIntoBlocksChunksAndWavesChangeNoBit) {
     const Scene scene = load_text(plain_box());
     const Outcome reference = on_cpu(scene, AccelKind::sah);
-    for (const GridSetup setup : {GridSetup{1, 1u << 20}, GridSetup{128, 441}, GridSetup{33, 1},
-                                  GridSetup{64, 440}, GridSetup{1024, 7}})
-        expect_same(on_grid<box_profile>(scene, setup), reference);
+    for (const HostGrid grid :
+         {HostGrid{1, 1u << 20, 1, 0}, HostGrid{128, 441, 5 * 441, 0}, HostGrid{33, 1, 1, 0},
+          HostGrid{64, 440, 881, 0}, HostGrid{1024, 7, 1u << 14, 0}})
+        expect_same(on_grid(scene, GetParam(), {}, grid), reference);
 }
 
-TEST(HostGrid, ProgressGrowsToOneWithAllRays) {
+TEST_P(HostGridImage, TheOrderOfThreadsChangesNoBit) {
+    const Scene scene = load_text(rich_box());
+    const Outcome reference = on_cpu(scene, AccelKind::sah);
+    for (const std::uint32_t shuffle : {1u, 2u, 77u})
+        expect_same(on_grid(scene, GetParam(), {}, {32, 1u << 20, 1u << 14, shuffle}), reference);
+}
+
+TEST_P(HostGridImage, ProgressGrowsToOneWithAllRays) {
     const Scene scene = load_text(plain_box());
     std::vector<double> shares;
     std::uint64_t rays = 0;
@@ -149,20 +183,20 @@ TEST(HostGrid, ProgressGrowsToOneWithAllRays) {
         EXPECT_GE(now.rays, rays);
         rays = now.rays;
     };
-    const Outcome grid = on_grid<box_profile>(scene, {}, how);
+    const Outcome grid = on_grid(scene, GetParam(), how);
     ASSERT_GT(shares.size(), 4u); // 441 pixels in chunks of 100
     EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
     EXPECT_DOUBLE_EQ(shares.back(), 1);
     EXPECT_EQ(rays, grid.stats.rays.total());
 }
 
-TEST(HostGrid, CancelledItKeepsTheChunksThatAreDone) {
+TEST_P(HostGridImage, CancelledItKeepsTheChunksThatAreDone) {
     const Scene scene = load_text(plain_box());
     std::atomic<bool> cancel{false};
     RenderOptions how;
     how.cancel = &cancel;
     how.progress = [&](const ProgressState& now) { cancel = now.done > 0.4; };
-    const Outcome grid = on_grid<box_profile>(scene, {}, how);
+    const Outcome grid = on_grid(scene, GetParam(), how);
     const Outcome whole = on_cpu(scene, AccelKind::sah);
     EXPECT_LT(grid.stats.samples, whole.stats.samples);
     for (std::size_t i = 0; i < 100; ++i)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The object of path_kernel.cu emits no host code of the headers that it shares with the CPU.
+"""The objects of the .cu files emit no host code of the headers that they share with the CPU.
 
-    path_kernel_symbols_test.py OBJECT
+    path_kernel_symbols_test.py OBJECT...
 
 Under nvcc these headers leave out the vector instructions: a weak symbol of theirs could replace,
 at link time, the one that the rest of the program was compiled with.
@@ -10,8 +10,9 @@ import subprocess
 import sys
 
 # What the host side of the file consists of, beside names local to the object.
-ALLOWED = ("plumb::DeviceError", "plumb::detail::check_cuda", "plumb::launch_path_kernel",
-           "plumb::check_path_kernel", "plumb::(anonymous namespace)::")
+ALLOWED = ("plumb::DeviceError", "plumb::detail::check_cuda", "plumb::launch_", "plumb::check_path_kernel",
+           "plumb::path_kernel_reports", "plumb::wave_kernel_reports", "plumb::ray_kernel_report",
+           "plumb::(anonymous namespace)::", "plumb::KernelReport", "__device_stub__")
 
 
 def shared_symbols(listing):
@@ -26,14 +27,16 @@ def shared_symbols(listing):
 
 
 def main(arguments):
-    listing = subprocess.run(["nm", "--demangle", arguments[0]], check=True, capture_output=True, text=True).stdout
-    if "launch_path_kernel" not in listing:
-        print("no symbols found: is this the object of path_kernel.cu?")
-        return 1
-    found = sorted(set(shared_symbols(listing)))
-    for name in found:
-        print("host code of a shared header:", name)
-    return 1 if found else 0
+    wrong = 0
+    for path in arguments:
+        listing = subprocess.run(["nm", "--demangle", path], check=True, capture_output=True, text=True).stdout
+        if "plumb::launch_" not in listing:
+            print(f"{path}: no symbols found: is this the object of a .cu file?")
+            wrong += 1
+        for name in sorted(set(shared_symbols(listing))):
+            print(f"{path}: host code of a shared header: {name}")
+            wrong += 1
+    return 1 if wrong or not arguments else 0
 
 
 if __name__ == "__main__":

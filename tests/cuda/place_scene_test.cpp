@@ -1,7 +1,8 @@
 /// \file  What is placed on a device is a whole copy: nothing points back to the host's scene.
 
-#include "tests/cuda/host_executor.h"
+#include "cuda/host_executor.h"
 
+#include "accel/sah/build_compressed.h"
 #include "accel/sah/build_sah.h"
 
 #include <gtest/gtest.h>
@@ -103,6 +104,26 @@ TEST(PlaceTree, ATreeIsCopiedWhole) {
     EXPECT_EQ(std::memcmp(copy.blocks, tree.blocks, tree.block_count * sizeof(TriangleBlock)), 0);
     EXPECT_EQ(copy.spheres[0].sphere.center, spheres[0].center);
     EXPECT_EQ(copy.sphere_geometry, 1u);
+}
+
+TEST(PlaceTree, ACompressedTreeIsCopiedWhole) {
+    const std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    const std::vector<Triangle> triangles(40, Triangle{0, 1, 2});
+    const std::vector<MeshView> meshes{{positions, triangles}};
+    const CompressedTree built = build_compressed({meshes, {}});
+    TreeViews trees;
+    trees.wide = built.view();
+    HostBlock block(placed_size({}, trees));
+    Arena arena = block.arena();
+    const CompressedView copy = place(trees, arena).wide;
+    const std::size_t nodes = copy.node_count * sizeof(CompressedNode);
+    const std::size_t primitives = copy.primitive_count * sizeof(CompressedPrimitive);
+    EXPECT_TRUE(block.holds(copy.nodes, nodes));
+    EXPECT_TRUE(block.holds(copy.primitives, primitives));
+    EXPECT_EQ(std::memcmp(copy.nodes, built.nodes.data(), nodes), 0);
+    EXPECT_EQ(std::memcmp(copy.primitives, built.primitives.data(), primitives), 0);
+    EXPECT_EQ(copy.primitive_count, 40u);
+    EXPECT_EQ(copy.reach, built.reach);
 }
 
 } // namespace

@@ -101,8 +101,17 @@ TEST_F(CommandLine, BadCallsSayWhatIsWrongAndWriteNothing) {
         {"--exposure 1e999 -o a.png box.xml", 2, "(got '1e999'"},
         {"-D spp box.xml", 2, "(got 'spp', expected NAME=VALUE)"},
         {"box.xml box.xml", 2, "unexpected argument 'box.xml'"},
+        {"''", 2, "scene: empty value"},
+        {"--stats '' box.xml", 2, "--stats: empty value"},
+        {"-o '' box.xml", 2, "--output: empty value"},
+        {"--accel=\x1b[31mred box.xml", 2, "(got '?[31mred', expected"}, // no colours
         {"--accel=embree --triangle-test=moeller-trumbore box.xml", 2, "needs --accel=naive"},
         {"--device=cuda --accel=naive box.xml", 2, "needs --accel=sah"},
+        {"--cuda-tree=octree box.xml", 2, "(got 'octree', expected binary, wide)"},
+        {"--cuda-schedule=x box.xml", 2, "(got 'x', expected megakernel, wavefront)"},
+        {"--validate=cuda --device=cuda box.xml", 2, "--validate: needs --device=cpu"},
+        {"--validate=cuda --accel=embree box.xml", 2, "not Embree's"},
+        {"--validate=cuda --time-limit 1s box.xml", 2, "neither by error nor by time"},
         {"--quiet --explain box.xml", 2, "contradicts"},
         {"--target-error 0 box.xml", 2, "--target-error: bad error (got '0', expected above 0"},
         {"--target-error=-0.1 box.xml", 2, "(got '-0.1', expected above 0 to 1)"},
@@ -263,6 +272,19 @@ TEST_F(CommandLine, SignalsEndInTheImageSoFarAndTheirExitCode) {
         EXPECT_TRUE(fs::exists(folder_ / "a.exr"));
         EXPECT_EQ(file_count(), 3u);
         EXPECT_NE(read("s.json").find("\"stopped_by\": \"signal\""), std::string::npos) << stop;
+    }
+}
+
+TEST_F(CommandLine, WithoutADeviceCudaSaysWhyInOneLineAndWritesNothing) {
+    for (const char* flags : {"--device=cuda", "--device=cuda --cuda-tree=wide",
+                              "--device=cuda --cuda-schedule=wavefront", "--validate=cuda"}) {
+        const Outcome run = renderer(std::string(flags) + " box.xml");
+        if (run.exit_code == 0)
+            GTEST_SKIP() << "there is a device";
+        EXPECT_EQ(run.exit_code, 6) << flags << '\n' << run.output;
+        EXPECT_EQ(run.output.rfind("error: cuda: ", 0), 0u) << run.output;
+        EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+        EXPECT_EQ(file_count(), 1u) << flags;
     }
 }
 

@@ -152,7 +152,7 @@ TEST_F(ValidateCommand, ContradictionsAreRefused) {
     const BadCall calls[] = {
         {"--validate=sah", 2, "compares sah with itself"},
         {"--accel=embree --validate=embree", 2, "compares embree with itself"},
-        {"--validate=octree", 2, "(got 'octree', expected embree, naive, sah)"},
+        {"--validate=octree", 2, "(got 'octree', expected embree, naive, sah, cuda)"},
         {"--validate=embree --device=cuda", 2, "--validate: needs --device=cpu"},
         {"--replay-file a.replay", 2, "--replay-file: needs --validate"},
         {"--replay-all", 2, "--replay-all: needs --validate"},

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <stdexcept>
 
 namespace plumb::test {
 namespace {
@@ -28,7 +26,8 @@ const char* name_of(RouletteKind r) {
 std::string Method::name() const {
     return std::string(name_of(estimator)) +
            (hemisphere == HemisphereSampling::cosine ? "_cosine_" : "_uniform_") +
-           name_of(roulette) + (lights == LightSampling::area ? "_area" : "");
+           name_of(roulette) + (lights == LightSampling::area ? "_area" : "") +
+           (sampler == SamplerKind::sobol ? "_sobol" : "");
 }
 
 void Method::apply(Scene& scene) const {
@@ -39,6 +38,7 @@ void Method::apply(Scene& scene) const {
     scene.path.roulette_constant = roulette_probability;
     scene.path.rr_depth = 1;
     scene.path.max_depth = roulette == RouletteKind::none ? depth_without_roulette : -1;
+    scene.sampler.kind = sampler;
 }
 
 std::vector<Method> all_methods() {
@@ -47,37 +47,53 @@ std::vector<Method> all_methods() {
         for (const auto h : {HemisphereSampling::cosine, HemisphereSampling::uniform})
             for (const auto r :
                  {RouletteKind::throughput, RouletteKind::constant, RouletteKind::none})
-                methods.push_back({e, h, r, LightSampling::solid_angle});
+                methods.push_back({e, h, r, LightSampling::solid_angle, SamplerKind::independent});
     return methods;
 }
 
 std::vector<OracleRun> runs_of(const std::vector<Oracle>& oracles) {
     std::vector<OracleRun> runs;
-    for (const Oracle& oracle : oracles) {
-        for (const Method& method : all_methods())
-            runs.push_back({oracle, method});
-        for (const Estimator e : oracle.by_area)
-            runs.push_back(
-                {oracle,
-                 {e, HemisphereSampling::cosine, RouletteKind::throughput, LightSampling::area}});
-    }
+    for (const Oracle& oracle : oracles)
+        for (const auto sampler : {SamplerKind::independent, SamplerKind::sobol})
+            for (Method method : all_methods()) {
+                method.sampler = sampler;
+                runs.push_back({oracle, method});
+                const auto& by_area = oracle.by_area;
+                if (std::find(by_area.begin(), by_area.end(), method.estimator) == by_area.end())
+                    continue;
+                method.lights = LightSampling::area;
+                runs.push_back({oracle, method});
+            }
     return runs;
 }
 
 double RelativeSamples::variance() const {
-    return std::max({channel[0].variance(), channel[1].variance(), channel[2].variance()});
+    return samples_of_pixel *
+           std::max({channel[0].variance(), channel[1].variance(), channel[2].variance()});
+}
+
+double RelativeSamples::kurtosis() const {
+    return std::max_element(
+               std::begin(channel), std::end(channel),
+               [](const Moments& a, const Moments& b) { return a.variance() < b.variance(); })
+        ->kurtosis();
+}
+
+void RelativeSamples::merge(const RelativeSamples& other) {
+    for (int c = 0; c < 3; ++c)
+        channel[c].merge(other.channel[c]);
 }
 
 double RelativeSamples::max_over_mean() const {
     double largest = 0;
-    for (const MeanTest& c : channel)
+    for (const Moments& c : channel)
         largest = std::fmax(largest, c.max_abs() / c.mean());
     return largest;
 }
 
 double RelativeSamples::largest_z() const {
     double largest = 0;
-    for (const MeanTest& c : channel) {
+    for (const Moments& c : channel) {
         const double z = (c.mean() - 1) / std::hypot(c.standard_error(), rounding);
         if (!(std::fabs(z) <= std::fabs(largest))) // NaN stays
             largest = z;
@@ -85,14 +101,19 @@ double RelativeSamples::largest_z() const {
     return largest;
 }
 
-RelativeSamples sample(const OracleRun& run, std::uint64_t count) {
+RelativeSamples sample(const OracleRun& run, std::uint64_t count, std::uint64_t seed) {
     RelativeSamples samples;
-    for (std::uint64_t seed = 1; samples.channel[0].count() < count; ++seed) {
-        const auto missing = static_cast<double>(count - samples.channel[0].count());
+    samples.samples_of_pixel = run.method.samples_of_pixel();
+    const auto spp = static_cast<std::uint64_t>(samples.samples_of_pixel);
+    for (; samples.channel[0].count() * spp < count; ++seed) {
+        const auto missing = static_cast<double>(count) / static_cast<double>(spp) -
+                             static_cast<double>(samples.channel[0].count());
         const auto side =
             std::min(max_side, static_cast<std::uint64_t>(std::ceil(std::sqrt(missing))));
         RenderSetup setup;
-        setup.parameters = {{"side", std::to_string(side)}, {"seed", std::to_string(seed)}};
+        setup.parameters = {{"side", std::to_string(side)},
+                            {"spp", std::to_string(spp)},
+                            {"seed", std::to_string(seed)}};
         setup.adjust = [&run](Scene& scene) { run.method.apply(scene); };
         const Image image = render_xml(run.oracle.xml, setup, run.oracle.files).image;
         for (const Rgb& p : image.pixels) {
@@ -102,18 +123,6 @@ RelativeSamples sample(const OracleRun& run, std::uint64_t count) {
         }
     }
     return samples;
-}
-
-std::map<std::string, OracleBound> read_oracle_bounds(const std::string& file) {
-    std::ifstream in(file);
-    if (!in)
-        throw std::runtime_error("cannot read " + file);
-    std::map<std::string, OracleBound> bounds;
-    std::string name;
-    OracleBound bound;
-    while (in >> name >> bound.variance >> bound.max_over_mean)
-        bounds[name] = bound;
-    return bounds;
 }
 
 void PrintTo(const OracleRun& run, std::ostream* out) { *out << run.name(); }

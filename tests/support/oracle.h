@@ -1,14 +1,14 @@
 /// \file  A scene with a closed form, the methods that must reach it, and what a render gave.
 ///
-/// Oracle images have one sample a pixel, so that every pixel is an independent sample of one
-/// number: mean, variance and the largest sample are those of the estimator.
+/// Every pixel of an oracle's image is an independent sample of one number: mean, variance and the
+/// largest sample are those of the estimator. Pixels have one sample, with the Sobol' sampler 16
+/// that depend on each other.
 #pragma once
 
+#include "tests/support/moments.h"
 #include "tests/support/render_scene.h"
-#include "tests/support/statistics.h"
 
 #include <cstdint>
-#include <map>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -19,21 +19,27 @@ namespace plumb::test {
 inline constexpr float roulette_probability = 0.85f;
 /// Longest path without roulette.
 inline constexpr int depth_without_roulette = 6;
+/// Samples of a pixel with the Sobol' sampler.
+inline constexpr int sobol_samples = 16;
 
 struct Method {
     Estimator estimator = Estimator::mis;
     HemisphereSampling hemisphere = HemisphereSampling::cosine;
     RouletteKind roulette = RouletteKind::throughput;
     LightSampling lights = LightSampling::solid_angle;
+    SamplerKind sampler = SamplerKind::independent;
 
-    /// As in "mis_cosine_throughput" or "light_uniform_none_area".
+    /// As in "mis_cosine_throughput" or "light_uniform_none_area_sobol".
     [[nodiscard]] std::string name() const;
     /// Roulette plays from the first bounce on; without it, paths are cut after
     /// depth_without_roulette segments.
     void apply(Scene& scene) const;
+    [[nodiscard]] int samples_of_pixel() const {
+        return sampler == SamplerKind::sobol ? sobol_samples : 1;
+    }
 };
 
-/// Estimator x hemisphere x roulette, lights by solid angle.
+/// Estimator x hemisphere x roulette, lights by solid angle, independent samples.
 [[nodiscard]] std::vector<Method> all_methods();
 
 struct Oracle {
@@ -63,30 +69,28 @@ struct OracleRun {
     }
 };
 
-/// All pairs of an oracle with its methods.
+/// All pairs of an oracle with its methods, for both samplers.
 [[nodiscard]] std::vector<OracleRun> runs_of(const std::vector<Oracle>& oracles);
 
-/// Samples divided by what they should be: mean 1.
+/// Pixels divided by what they should be: mean 1.
 struct RelativeSamples {
-    MeanTest channel[3];
+    Moments channel[3];
+    int samples_of_pixel = 1;
 
-    [[nodiscard]] double variance() const;      ///< largest of the channels
+    /// Of one sample: that of a pixel times its samples. Largest of the channels.
+    [[nodiscard]] double variance() const;
+    /// Of the pixels of the channel with the largest variance.
+    [[nodiscard]] double kurtosis() const;
     [[nodiscard]] double max_over_mean() const; ///< largest of the channels
     /// Largest |z| of the three means against 1. float arithmetic is granted 1e-5, so that
     /// estimators without noise have a finite z.
     [[nodiscard]] double largest_z() const;
+    void merge(const RelativeSamples& other);
 };
 
-/// Renders at least `count` samples. Throws what load_scene throws.
-[[nodiscard]] RelativeSamples sample(const OracleRun& run, std::uint64_t count);
-
-/// What a run is held to, measured once: relative variance and max/mean.
-struct OracleBound {
-    double variance = 0, max_over_mean = 0;
-};
-
-/// Reads lines "name variance max/mean". Throws std::runtime_error where there is no file.
-[[nodiscard]] std::map<std::string, OracleBound> read_oracle_bounds(const std::string& file);
+/// Renders at least `count` samples with the seeds from `seed` on. Throws what load_scene throws.
+[[nodiscard]] RelativeSamples sample(const OracleRun& run, std::uint64_t count,
+                                     std::uint64_t seed = 1);
 
 void PrintTo(const OracleRun& run, std::ostream* out);
 

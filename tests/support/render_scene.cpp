@@ -1,7 +1,5 @@
 #include "tests/support/render_scene.h"
 
-#include "renderer/scene/scene_tables.h"
-
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -45,6 +43,11 @@ class Fnv {
         for (int shift = 0; shift < 32; shift += 8)
             hash_ = (hash_ ^ ((word >> shift) & 0xffu)) * 0x100000001b3u;
     }
+    void add(double value) {
+        const auto bits = std::bit_cast<std::uint64_t>(value);
+        add(static_cast<std::uint32_t>(bits));
+        add(static_cast<std::uint32_t>(bits >> 32));
+    }
     [[nodiscard]] std::uint64_t value() const { return hash_; }
 
   private:
@@ -53,22 +56,28 @@ class Fnv {
 
 } // namespace
 
+LoadedScene::LoadedScene(const fs::path& file, const RenderSetup& setup)
+    : scene_([&] {
+          Scene scene = load_scene({file, setup.parameters, false});
+          if (setup.adjust)
+              setup.adjust(scene);
+          return scene;
+      }()),
+      tables_(scene_),
+      intersector_(make_intersector(setup.accel, tables_.geometry(), setup.build)) {
+    options_.threads = setup.threads;
+    options_.variance = setup.variance;
+    options_.force_full_profile = setup.full_profile;
+    options_.ray_by_ray = setup.ray_by_ray;
+    options_.stop = setup.stop;
+}
+
 Rendered render_file(const fs::path& file, const RenderSetup& setup) {
-    Scene scene = load_scene({file, setup.parameters, false});
-    if (setup.adjust)
-        setup.adjust(scene);
-    const SceneTables tables(scene);
-    const auto intersector = make_intersector(setup.accel, tables.geometry(), setup.build);
-    RenderOptions how;
-    how.threads = setup.threads;
-    how.variance = setup.variance;
-    how.force_full_profile = setup.full_profile;
-    how.ray_by_ray = setup.ray_by_ray;
-    how.stop = setup.stop;
+    const LoadedScene loaded(file, setup);
     Rendered result;
-    result.image =
-        render(make_job(scene, tables.view()), features_of(scene), *intersector, how, result.stats)
-            .resolve();
+    result.image = render(loaded.job(), loaded.features(), loaded.intersector(), loaded.options(),
+                          result.stats)
+                       .resolve();
     return result;
 }
 
@@ -86,6 +95,18 @@ std::uint64_t bits_of(const Image& image) {
     for (const Rgb& p : image.pixels)
         for (const float c : {p.r, p.g, p.b})
             hash.add(std::bit_cast<std::uint32_t>(c));
+    return hash.value();
+}
+
+std::uint64_t bits_of(const Film& film) {
+    Fnv hash;
+    for (const FilmPixel& p : film.pixels()) {
+        hash.add(p.count);
+        for (int c = 0; c < 3; ++c) {
+            hash.add(p.sum[c]);
+            hash.add(p.m2[c]);
+        }
+    }
     return hash.value();
 }
 

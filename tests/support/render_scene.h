@@ -3,6 +3,7 @@
 
 #include "renderer/integrate/render.h"
 #include "renderer/io/load_scene.h"
+#include "renderer/scene/scene_tables.h"
 
 #include <functional>
 #include <map>
@@ -31,6 +32,25 @@ struct Rendered {
     RenderStats stats;
 };
 
+/// A scene loaded and built: for tests that render it by parts. Throws what load_scene throws.
+class LoadedScene {
+  public:
+    LoadedScene(const std::filesystem::path& file, const RenderSetup& setup);
+
+    [[nodiscard]] const Scene& scene() const { return scene_; }
+    [[nodiscard]] const Intersector& intersector() const { return *intersector_; }
+    [[nodiscard]] Features features() const { return features_of(scene_); }
+    [[nodiscard]] RenderJob job() const { return make_job(scene_, tables_.view()); }
+    /// What the setup says of it, without progress and cancellation.
+    [[nodiscard]] const RenderOptions& options() const { return options_; }
+
+  private:
+    Scene scene_;
+    SceneTables tables_;
+    std::unique_ptr<Intersector> intersector_;
+    RenderOptions options_;
+};
+
 /// Loads, builds, renders. Throws what load_scene throws.
 [[nodiscard]] Rendered render_file(const std::filesystem::path& file, const RenderSetup& setup);
 
@@ -43,6 +63,8 @@ using SceneFileTexts = std::map<std::string, std::string>;
 
 /// FNV-1a (64 bit) over size and bits of the pixels.
 [[nodiscard]] std::uint64_t bits_of(const Image& image);
+/// The same over sums, second moments and counts of a film: what resolve() has not yet rounded.
+[[nodiscard]] std::uint64_t bits_of(const Film& film);
 
 /// Mean of all pixels and the variance of that mean, each channel, from Image::variance of samples
 /// that do not depend on each other. `spp`: samples in a pixel, at least 2.

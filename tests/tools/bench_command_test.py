@@ -65,6 +65,29 @@ class BenchCommand(unittest.TestCase):
                     self.assertEqual(entry["wrong"], 0, (mesh["name"], cell["rays"], entry["config"]))
                     self.assertIsNone(entry["to_default"])
 
+    def test_the_kernels_of_the_gpu_stand_in_the_same_table(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "bench.json")
+            done = run("--quick", "--meshes", "hall", "--configs", "cuda-host/*,naive", "--device", "cuda-host",
+                       "--repetitions", "1", "--json", path, "-q")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with open(path, encoding="utf-8") as file:
+                result = json.load(file)
+        for cell in result["meshes"][0]["cells"]:
+            entries = {entry["config"]: entry for entry in cell["entries"]}
+            for name in ("cuda-host/binary", "cuda-host/wide"):
+                self.assertEqual(entries[name]["wrong"], 0, (cell["rays"], name))
+                self.assertGreater(entries[name]["nodes_per_ray"], 0)
+
+    def test_without_a_device_it_says_why_in_one_line(self):
+        done = run("--quick", "--meshes", "cornell", "--device", "cuda", "--rays", "primary", "-q")
+        if done.returncode == 0:
+            self.skipTest("there is a device")
+        self.assertEqual(done.returncode, 6)
+        self.assertTrue(done.stderr.startswith("error: cuda: "), done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertEqual(done.stdout, "")
+
     def test_a_mesh_file_is_traced(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "two.obj")

@@ -213,7 +213,7 @@ TEST(BenchStructure, EveryWayOfTracingGivesTheAnswersItWasCheckedWith) {
     const BenchMesh mesh = mesh_called("hall");
     const MeshView view = mesh.mesh_view();
     const auto sets = sets_of(mesh, AccelKind::sah);
-    for (const Config& config : all_configs(1)) {
+    for (const Config& config : all_configs(1, RaySide::host)) {
         Structure structure(config.structure, {{&view, 1}, {}});
         structure.build();
         for (const RaySet& rays : sets) {

@@ -62,13 +62,29 @@ void add_embree(std::vector<Config>& configs, int threads) {
         }
 }
 
+void add_cuda(std::vector<Config>& configs, RaySide side, int threads) {
+    for (const CudaTree tree : {CudaTree::binary, CudaTree::wide}) {
+        Config config;
+        config.structure.cuda = tree;
+        config.structure.side = side;
+        config.structure.build.threads = threads;
+        config.structure.name =
+            std::string_view(side == RaySide::device ? "cuda" : "cuda-host") / name_of(tree);
+        config.name = config.structure.name;
+        config.by_default = true;
+        configs.push_back(config);
+    }
+}
+
 } // namespace
 
-std::vector<Config> all_configs(int threads) {
+std::vector<Config> all_configs(int threads, std::optional<RaySide> side) {
     std::vector<Config> configs;
     add_embree(configs, threads);
     add_sah(configs, threads);
     add_naive(configs);
+    if (side)
+        add_cuda(configs, *side, threads);
     return configs;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "accel/embree/embree_options.h"
+#include "cuda/ray_tracer.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +17,9 @@ struct StructureConfig {
     AccelKind accel = AccelKind::sah;
     BuildOptions build;   ///< naive and sah
     EmbreeOptions embree; ///< embree
+    /// Set: kernels of a GPU over this tree, on this side, in place of `accel`.
+    std::optional<CudaTree> cuda;
+    RaySide side = RaySide::device;
 };
 
 /// A structure and a way to query it: one line of the tables.
@@ -27,8 +32,9 @@ struct Config {
     [[nodiscard]] bool is_embree() const { return structure.accel == AccelKind::embree; }
 };
 
-/// Every configuration that this processor can run, builds on `threads` threads.
-[[nodiscard]] std::vector<Config> all_configs(int threads);
+/// Every configuration that this processor can run, builds on `threads` threads. `side`: those of
+/// the GPU's kernels too.
+[[nodiscard]] std::vector<Config> all_configs(int threads, std::optional<RaySide> side = {});
 
 /// Whether `text` matches `pattern`, in which * stands for any characters.
 [[nodiscard]] bool matches_glob(std::string_view pattern, std::string_view text);

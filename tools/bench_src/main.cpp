@@ -1,6 +1,7 @@
 /// \file  plumb_bench: Plumbline's trees and Embree on the same rays, timed and checked.
 #include "accel/embree/embree_scene.h"
 #include "accel/validate/run_replay.h"
+#include "cuda/cuda_render.h"
 #include "renderer/io/input_file.h"
 #include "renderer/io/write_file.h"
 #include "renderer/scene/error.h"
@@ -92,6 +93,8 @@ int run(const Options& options) {
         return replay(options.replay);
     if (options.validate)
         return validate(options);
+    if (std::string why; options.cuda == RaySide::device && !cuda_available(&why))
+        throw DeviceError(why);
     if (!options.json.empty())
         check_writable(options.json);
     const RunInfo info = info_of(options);

@@ -34,7 +34,7 @@ constexpr const char* list_text = "Generated meshes (--meshes), * for several:\n
 struct Raw {
     std::vector<std::string> meshes, configs, rays;
     bool list = false;
-    std::string validate, quality;
+    std::string validate, quality, device;
     double validate_rays = 0; ///< 0: not given
 };
 
@@ -79,7 +79,11 @@ void look_up(const Raw& raw, Options& options) {
     select("--meshes", mesh_patterns, mesh_names,
            [&](std::size_t i) { options.meshes.push_back(&entries[i]); });
 
-    const std::vector<Config> configs = all_configs(options.threads);
+    if (raw.device == "cuda")
+        options.cuda = RaySide::device;
+    else if (raw.device == "cuda-host")
+        options.cuda = RaySide::host;
+    const std::vector<Config> configs = all_configs(options.threads, options.cuda);
     if (raw.configs.empty())
         std::copy_if(configs.begin(), configs.end(), std::back_inserter(options.measure.configs),
                      [](const Config& config) { return config.by_default; });
@@ -121,7 +125,7 @@ void print_list(int threads) {
     for (const RayKind kind : ray_kinds)
         out += fmt::format("  {:<12} {}\n", name_of(kind), description_of(kind));
     out += "Configurations (--configs); those with a + run by default:\n";
-    for (const Config& config : all_configs(threads))
+    for (const Config& config : all_configs(threads, RaySide::device))
         out += fmt::format("{} {}\n", config.by_default ? " +" : "  ", config.name);
     std::fputs(out.c_str(), stdout);
 }
@@ -140,6 +144,11 @@ void add_selection(CLI::App& app, Options& options, Raw& raw) {
                    "medium and high at the best instruction set, naive up to 400,000 triangles]")
         ->delimiter(',')
         ->type_name("NAME,...");
+    app.add_option("--device", raw.device,
+                   "cuda: the kernels of the GPU beside all others, timed by themselves, without\n"
+                   "the way of rays and answers; cuda-host: the same kernels in a loop [cpu]")
+        ->check(CLI::IsMember({"cpu", "cuda", "cuda-host"}))
+        ->type_name("cpu|cuda|cuda-host");
     app.add_option("--validate", raw.validate,
                    "Compare every ray of sah with this structure and classify what differs,\n"
                    "instead of timing; exit code 1 if anything is unexplained")

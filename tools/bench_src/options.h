@@ -21,6 +21,7 @@ struct Options {
     std::optional<ValidateOptions> validate; ///< compare instead of timing
     int threads = 1;                         ///< of the builds; 0: all cores
     std::filesystem::path json;              ///< empty: none
+    std::optional<RaySide> cuda;             ///< the GPU's kernels too
     std::string command_line;
 };
 

@@ -64,6 +64,14 @@ std::uint64_t trace_streams_any(const Intersector& intersector, std::span<const 
 void Structure::build() {
     own_.reset();
     embree_.reset();
+    cuda_.reset();
+    loaded_ = nullptr;
+    if (config_.cuda) {
+        cuda_ = std::make_unique<RayTracer>(config_.side, view_, *config_.cuda,
+                                            config_.build.triangle_test, config_.build.threads);
+        build_s_.push_back(cuda_->stats().build_s + cuda_->upload_s());
+        return;
+    }
     if (config_.accel == AccelKind::embree) {
         embree_ = std::make_unique<EmbreePeer>(view_, config_.embree);
         const EmbreeScene& scene = embree_->scene();
@@ -80,8 +88,8 @@ void Structure::build() {
 }
 
 AccelStats Structure::stats() const {
-    if (own_)
-        return own_->stats();
+    if (own_ || cuda_)
+        return own_ ? own_->stats() : cuda_->stats();
     AccelStats stats;
     stats.bytes = embree_->scene().bytes();
     stats.primitive_count = view_.primitive_count();
@@ -89,6 +97,8 @@ AccelStats Structure::stats() const {
 }
 
 TraversalCounts Structure::count(const RaySet& rays) const {
+    if (cuda_)
+        return cuda_->count(rays.rays, rays.any_hit());
     return own_ ? own_->count(rays.rays, rays.any_hit()) : TraversalCounts{};
 }
 
@@ -99,7 +109,31 @@ Structure::Prepared Structure::prepare(const RaySet& rays, bool wide) const {
     return prepared;
 }
 
+/// The time is the kernel's; rays and answers cross over before and after.
+Pass Structure::trace_on_cuda(const RaySet& rays, std::span<Hit> hits) const {
+    if (loaded_ != &rays)
+        cuda_->load(rays.rays);
+    loaded_ = &rays;
+    Pass pass;
+    pass.cpu_s = cuda_->trace(rays.any_hit());
+    if (rays.any_hit()) {
+        std::vector<std::uint8_t> found(rays.rays.size());
+        cuda_->fetch(found);
+        std::transform(found.begin(), found.end(), hits.begin(),
+                       [](std::uint8_t f) { return anonymous(f != 0); });
+    } else {
+        cuda_->fetch(hits);
+    }
+    for (const Hit& hit : hits)
+        pass.checksum += rays.any_hit() ? (hit.valid() ? 1u : 0u) : checksum_of(hit);
+    return pass;
+}
+
 Pass Structure::trace(const Prepared& prepared) const {
+    if (cuda_) {
+        std::vector<Hit> hits(prepared.rays->rays.size());
+        return trace_on_cuda(*prepared.rays, hits);
+    }
     const std::vector<Ray>& rays = prepared.rays->rays;
     const bool any_hit = prepared.rays->any_hit();
     Pass pass;
@@ -119,6 +153,8 @@ std::uint64_t Structure::answers(const Prepared& prepared, std::span<Hit> hits) 
     const bool any_hit = prepared.rays->any_hit();
     if (embree_)
         return embree_->trace(*prepared.embree, hits);
+    if (cuda_)
+        return trace_on_cuda(*prepared.rays, hits).checksum;
     if (prepared.wide && any_hit) {
         std::vector<std::uint8_t> found(rays.size());
         for_streams(rays, [&](std::span<const Ray> stream, std::size_t first) {

@@ -14,7 +14,7 @@ inline constexpr std::size_t stream_size = 256;
 
 /// One pass over a set of rays.
 struct Pass {
-    double cpu_s = 0;
+    double cpu_s = 0;           ///< of the thread; on a GPU the time of the kernel
     std::uint64_t checksum = 0; ///< of the answers
 };
 
@@ -50,10 +50,14 @@ class Structure {
     [[nodiscard]] std::uint64_t answers(const Prepared& prepared, std::span<Hit> hits) const;
 
   private:
+    Pass trace_on_cuda(const RaySet& rays, std::span<Hit> hits) const;
+
     StructureConfig config_;
     GeometryView view_;
     std::unique_ptr<Intersector> own_;
     std::unique_ptr<EmbreePeer> embree_;
+    std::unique_ptr<RayTracer> cuda_;
+    mutable const RaySet* loaded_ = nullptr; ///< the set that cuda_ has
     std::vector<double> build_s_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "tests/support/box_scenes.h"
 #include "tests/support/oracle.h"
+#include "tests/support/statistics.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -3,6 +3,7 @@
 #include "tests/support/oracle_parts.h"
 #include "tests/support/oracle_scenes.h"
 #include "tests/support/polygon_irradiance.h"
+#include "tests/support/statistics.h"
 
 #include <algorithm>
 #include <cmath>

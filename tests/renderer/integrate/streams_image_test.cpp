@@ -1,6 +1,7 @@
 /// \file  Streams of rays against one ray at a time: the same bits in every setting.
 
 #include "tests/support/box_scenes.h"
+#include "tests/support/interruption.h"
 #include "tests/support/render_scene.h"
 #include "tests/support/scene_text.h"
 
@@ -120,33 +121,6 @@ TEST(StreamsImage, SliversHaveTheBitsOfSingleRays) {
             R"(<rotate x="1" angle="180"/><translate z="4"/></transform>)" +
             area_emitter({1, 1, 1}) + "</shape>"));
 }
-
-/// Passes rays on, and asks for the end of the render after so many streams.
-class Interruption final : public Intersector {
-  public:
-    Interruption(const Intersector& inner, int streams, std::atomic<bool>& cancel)
-        : inner_(inner), streams_left_(streams), cancel_(cancel) {}
-
-    [[nodiscard]] Hit closest(const Ray& ray) const override { return inner_.closest(ray); }
-    [[nodiscard]] bool occluded(const Ray& ray) const override { return inner_.occluded(ray); }
-    void closest(std::span<const Ray> rays, std::span<Hit> hits) const override {
-        longest_ = std::max(longest_, rays.size());
-        if (--streams_left_ == 0)
-            cancel_ = true;
-        inner_.closest(rays, hits);
-    }
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> found) const override {
-        inner_.occluded(rays, found);
-    }
-    [[nodiscard]] AccelStats stats() const override { return inner_.stats(); }
-    [[nodiscard]] std::size_t longest() const { return longest_; }
-
-  private:
-    const Intersector& inner_;
-    mutable int streams_left_;
-    mutable std::size_t longest_ = 0;
-    std::atomic<bool>& cancel_;
-};
 
 /// The pixels of a tile that is left early have different numbers of samples, each the first ones.
 TEST(StreamsImage, CancelledInATileItKeepsWholeSamples) {

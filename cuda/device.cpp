@@ -1,0 +1,32 @@
+#include "cuda/device.h"
+
+#include "cuda/cuda_check.h"
+#include "cuda/path_kernel.h"
+
+namespace plumb {
+
+void start_device() {
+    int driver = 0;
+    if (cudaDriverGetVersion(&driver) == cudaSuccess && driver == 0)
+        throw DeviceError("cuda: there is no NVIDIA driver");
+    RT_CUDA_CHECK(cudaSetDevice(0));
+    check_path_kernel();
+}
+
+std::string device_name() {
+    cudaDeviceProp properties;
+    RT_CUDA_CHECK(cudaGetDeviceProperties(&properties, 0));
+    return properties.name;
+}
+
+void require_device_memory(std::size_t bytes, const char* what) {
+    std::size_t free = 0, total = 0;
+    RT_CUDA_CHECK(cudaMemGetInfo(&free, &total));
+    if (bytes <= free)
+        return;
+    const auto mebibytes = [](std::size_t n) { return std::to_string((n >> 20) + 1) + " MiB"; };
+    throw DeviceError(std::string("cuda: ") + what + " takes " + mebibytes(bytes) +
+                      " and the device has " + mebibytes(free) + " free of " + mebibytes(total));
+}
+
+} // namespace plumb

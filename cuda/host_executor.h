@@ -1,0 +1,166 @@
+/// \file  Renders by the GPU's own steps on the host: placed copies, batches, grids of threads.
+#pragma once
+
+#include "cuda/place_scene.h"
+#include "cuda/render_batches.h"
+#include "cuda/wave_runner.h"
+
+#include <cstring>
+#include <memory>
+#include <new>
+#include <numeric>
+
+namespace plumb {
+
+/// A block of host memory in place of the device's.
+class HostBlock {
+  public:
+    explicit HostBlock(std::size_t bytes)
+        : bytes_(bytes), block_(static_cast<std::byte*>(
+                             ::operator new (bytes + 1, std::align_val_t{Arena::alignment}))) {}
+
+    [[nodiscard]] Arena arena() {
+        return {block_.get(), [](std::byte* to, const void* from, std::size_t bytes) {
+                    std::memcpy(to, from, bytes);
+                }};
+    }
+    /// Whether all of an array lies in the block; empty arrays do.
+    [[nodiscard]] bool holds(const void* data, std::size_t bytes) const {
+        const auto* at = static_cast<const std::byte*>(data);
+        return bytes == 0 || (at >= block_.get() && at + bytes <= block_.get() + bytes_);
+    }
+    template <class T> [[nodiscard]] bool holds(std::span<const T> array) const {
+        return holds(array.data(), array.size_bytes());
+    }
+
+  private:
+    struct Free {
+        void operator()(std::byte* block) const {
+            ::operator delete (block, std::align_val_t{Arena::alignment});
+        }
+    };
+    std::size_t bytes_;
+    std::unique_ptr<std::byte, Free> block_;
+};
+
+/// How the host runs a grid.
+struct HostGrid {
+    std::uint32_t block_size = 128;
+    std::uint32_t chunk_pixels = 1u << 14;
+    std::uint32_t wave_slots = 1u << 14; ///< wavefront: paths at a time
+    std::uint32_t shuffle = 0; ///< 0: threads in order; else in another order for each number
+};
+
+/// Calls body(GridPosition) for every thread, in the order that the grid asks for.
+template <class Body>
+void run_grid_on_host(const HostGrid& grid, std::uint64_t items, Body&& body) {
+    const LaunchShape shape = shape_for(items, grid.block_size);
+    if (grid.shuffle == 0)
+        return run_grid_on_host(shape, body);
+    // Steps of a size without a common factor with the number of threads meet each of them once.
+    const std::uint64_t threads = std::uint64_t{shape.blocks} * shape.block_size;
+    std::uint64_t step =
+        (2 * std::uint64_t{grid.shuffle} + 1) * 7919 % std::max(threads, std::uint64_t{1});
+    while (std::gcd(step, threads) > 1)
+        ++step;
+    for (std::uint64_t i = 0, at = grid.shuffle % std::max(threads, std::uint64_t{1}); i < threads;
+         ++i, at = (at + step) % threads)
+        body(GridPosition{static_cast<std::uint32_t>(at / shape.block_size),
+                          static_cast<std::uint32_t>(at % shape.block_size), shape.block_size});
+}
+
+/// Film and counters of a chunk in host memory, and the job that writes them.
+class HostFilm {
+  public:
+    explicit HostFilm(const DeviceJob& device) : device_(device) {}
+
+    void clear(std::uint32_t pixels) {
+        film_.assign(pixels, {});
+        counts_ = {};
+        device_.film = film_.data();
+        device_.counts = &counts_;
+    }
+    void fetch(std::span<FilmPixel> film) const {
+        std::copy_n(film_.begin(), film.size(), film.begin());
+    }
+    [[nodiscard]] int launches() const { return launches_; }
+
+  protected:
+    DeviceJob device_;
+    RayCounts counts_;
+    int launches_ = 0;
+
+  private:
+    std::vector<FilmPixel> film_;
+};
+
+/// The megakernel: an executor of BatchRenderer.
+template <Features F, TriangleTest Test, CudaTree Tree> class HostExecutor : public HostFilm {
+  public:
+    HostExecutor(const DeviceJob& device, const HostGrid& grid) : HostFilm(device), grid_(grid) {}
+
+    RayCounts run(const Batch& batch) {
+        ++launches_;
+        device_.batch = batch;
+        run_grid_on_host(grid_, batch.pixel_count,
+                         [&](GridPosition at) { render_thread<F, Test, Tree>(device_, at); });
+        return counts_;
+    }
+
+  private:
+    HostGrid grid_;
+};
+
+/// The wavefront: another, and the launcher of its WaveRunner.
+template <Features F, TriangleTest Test, CudaTree Tree> class HostWaves : public HostFilm {
+  public:
+    HostWaves(const DeviceJob& device, const HostGrid& grid)
+        : HostFilm(device), grid_(grid),
+          slots_(std::max(grid.wave_slots, std::min(grid.chunk_pixels, pixels_of(device)))),
+          paths_(slots_), hits_(slots_), now_(slots_), next_(slots_), shadows_(slots_) {}
+
+    RayCounts run(const Batch& batch) {
+        device_.batch = batch;
+        const WaveView wave{paths_.data(), hits_.data(),    now_.data(),
+                            next_.data(),  shadows_.data(), &counters_};
+        counts_ += WaveRunner(*this, wave, slots_).run(device_);
+        return counts_;
+    }
+    void launch(WaveStage stage, const WaveJob& job) {
+        ++launches_;
+        run_grid_on_host(grid_, job.count, [&](GridPosition at) {
+            switch (stage) {
+            case WaveStage::generate: return generate_thread<F>(job, at);
+            case WaveStage::extend: return extend_thread<Test, Tree>(job, at);
+            case WaveStage::shade: return shade_thread<F>(job, at);
+            case WaveStage::shadow: return shadow_thread<Test, Tree>(job, at);
+            case WaveStage::accumulate: return accumulate_thread(job, at);
+            }
+        });
+    }
+    WaveCounters take_counters(const WaveJob& /*job*/) { return std::exchange(counters_, {}); }
+
+  private:
+    static std::uint32_t pixels_of(const DeviceJob& device) {
+        return static_cast<std::uint32_t>(device.job.crop.width) *
+               static_cast<std::uint32_t>(device.job.crop.height);
+    }
+
+    HostGrid grid_;
+    std::uint32_t slots_;
+    std::vector<PathState> paths_;
+    std::vector<Hit> hits_;
+    std::vector<std::uint32_t> now_, next_;
+    std::vector<ShadowEntry> shadows_;
+    WaveCounters counters_;
+};
+
+/// Bytes that a job and its tree take.
+[[nodiscard]] inline std::size_t placed_size(const RenderJob& job, const TreeViews& trees) {
+    Arena measure;
+    static_cast<void>(place(job.scene, measure));
+    static_cast<void>(place(trees, measure));
+    return measure.used();
+}
+
+} // namespace plumb

@@ -1,0 +1,31 @@
+/// \file  What one GPU thread does with a batch of rays: one query; host and device.
+#pragma once
+
+#include "cuda/device_tree.h"
+#include "cuda/grid.h"
+
+namespace plumb {
+
+/// What the kernel is launched with. Every pointer is of the side that runs it.
+struct RayJob {
+    TreeViews trees;
+    const Ray* rays = nullptr;
+    std::uint64_t count = 0;
+    Hit* hits = nullptr;           ///< of closest queries
+    std::uint8_t* found = nullptr; ///< of any-hit queries: 1 or 0
+};
+
+/// Item i: ray i.
+template <TriangleTest Test, CudaTree Tree, bool AnyHit>
+RT_HD void trace_ray_thread(const RayJob& job, GridPosition at) {
+    const std::uint64_t i = at.index();
+    if (i >= job.count)
+        return;
+    const TreeQuery<Test, Tree> query{job.trees};
+    if constexpr (AnyHit)
+        job.found[i] = query.occluded(job.rays[i]) ? 1 : 0;
+    else
+        job.hits[i] = query.closest(job.rays[i]);
+}
+
+} // namespace plumb
