@@ -2,6 +2,8 @@
 """What tools/chart makes of runs: errors freed of the reference's noise, the reference, the summary of a
 scene. Skipped (77) without numpy."""
 import os
+import signal
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -13,7 +15,7 @@ except ImportError:
     print("SKIPPED: needs python3-numpy")
     sys.exit(77)
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../tools"))
-from chart_src import analysis, measure, reference  # noqa: E402
+from chart_src import analysis, measure, methods, reference, stop  # noqa: E402
 
 SIZE = (32, 32, 3)
 TRUTH = 0.5 + 0.3 * np.sin(np.arange(32 * 32 * 3)).reshape(SIZE)
@@ -86,7 +88,7 @@ class References(unittest.TestCase):
 
     def test_it_says_its_own_error(self):
         renderer = FakeRenderer()
-        ref = reference.make_reference(self.scene, renderer, self.cache, 0.2)
+        ref = reference.make_reference(self.scene, renderer, self.cache, 0.2, 1024)
         self.assertEqual(len({seed for _, seed in renderer.calls}), len(renderer.calls))  # independent
         self.assertEqual(ref.spp, sum(spp for spp, _ in renderer.calls))
         self.assertGreater(ref.spp, 50)
@@ -95,17 +97,25 @@ class References(unittest.TestCase):
         self.assertAlmostEqual(((ref.mean - TRUTH) ** 2).mean() * ref.spp, 1, delta=0.15)
 
     def test_pictures_without_noise_are_kept_as_they_are(self):
-        ref = reference.make_reference(self.scene, FakeRenderer(noise=0), self.cache, 0.01)
+        ref = reference.make_reference(self.scene, FakeRenderer(noise=0), self.cache, 0.01, 1024)
         np.testing.assert_allclose(ref.mean, TRUTH, rtol=1e-12)
 
-    def test_it_is_made_once_and_refined_where_there_is_more_time(self):
-        first = reference.make_reference(self.scene, FakeRenderer(), self.cache, 0.1)
+    def test_it_ends_where_it_is_good_enough(self):
+        renderer = FakeRenderer()
+        ref = reference.make_reference(self.scene, renderer, self.cache, 1e9, 2)
+        self.assertTrue(64 * 2 <= ref.spp < 4 * 64 * 2)
         again = FakeRenderer()
-        same = reference.make_reference(self.scene, again, self.cache, first.seconds)
+        reference.make_reference(self.scene, again, self.cache, 1e9, 2)
+        self.assertEqual(again.calls, [])
+
+    def test_it_is_made_once_and_refined_where_there_is_more_time(self):
+        first = reference.make_reference(self.scene, FakeRenderer(), self.cache, 0.1, 1024)
+        again = FakeRenderer()
+        same = reference.make_reference(self.scene, again, self.cache, first.seconds, 1024)
         self.assertEqual((again.calls, same.spp), ([], first.spp))
         np.testing.assert_array_equal(same.mean, first.mean)
         more = FakeRenderer()
-        better = reference.make_reference(self.scene, more, self.cache, 6 * first.seconds)
+        better = reference.make_reference(self.scene, more, self.cache, 6 * first.seconds, 1024)
         self.assertGreater(better.spp, first.spp)
         self.assertEqual(better.spp, first.spp + sum(spp for spp, _ in more.calls))
         self.assertAlmostEqual(((better.mean - TRUTH) ** 2).mean() * better.spp, 1, delta=0.15)
@@ -122,6 +132,67 @@ class References(unittest.TestCase):
             self.write('<scene><string name="filename" value="mesh.obj"/></scene>')
             keys.append(reference.key_of(self.scene, FakeRenderer()))
         self.assertEqual(len(set(keys)), 4)
+
+
+# As a renderer: a picture of one pixel, rendered in half a millisecond, as it says.
+PROGRAM = """#!/bin/sh
+while [ $# -gt 0 ]; do
+    case $1 in -o) image=$2 ;; --stats) stats=$2 ;; esac
+    shift
+done
+printf 'PF\\n1 1\\n-1\\n\\000\\000\\200\\077\\000\\000\\000\\100\\000\\000\\100\\100' >"$image"
+i=0; while [ $i -lt 20000 ]; do i=$((i + 1)); done
+echo '{"render_s": 0.0005, "total_s": 0.001, "samples": 4, "rays": {"total": 9}, "peak_bytes": 5}' >"$stats"
+"""
+
+
+class Rendering(unittest.TestCase):
+    def test_the_start_of_the_process_is_not_counted(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = os.path.join(folder, "renderer")
+            with open(program, "w", encoding="utf-8") as file:
+                file.write(PROGRAM)
+            os.chmod(program, 0o755)
+            picture, record = measure.Renderer(program, folder, 1, 8).render(__file__, methods.Method("default", {}), 4, 0)
+        np.testing.assert_array_equal(picture, [[[1, 2, 3]]])
+        self.assertEqual((record["wall_s"], record["samples"], record["rays"], record["memory_bytes"]), (0.0005, 4, 9, 5))
+        self.assertTrue(0 < record["cpu_s"] <= 0.0005, record)  # of some ms of the process
+
+
+class Stopping(unittest.TestCase):
+    def setUp(self):
+        for number in stop.NUMBERS:
+            self.addCleanup(signal.signal, number, signal.getsignal(number))
+        stop.listen()
+
+    def test_the_first_signal_ends_and_later_ones_do_nothing(self):
+        with self.assertRaises(stop.Stopped) as caught:
+            os.kill(os.getpid(), signal.SIGTERM)
+        self.assertEqual(caught.exception.number, signal.SIGTERM)
+        os.kill(os.getpid(), signal.SIGTERM)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    def test_what_is_held_is_done_first(self):
+        done = False
+        with self.assertRaises(stop.Stopped) as caught, stop.held():
+            os.kill(os.getpid(), signal.SIGINT)
+            done = True
+        self.assertTrue(done)
+        self.assertEqual(caught.exception.number, signal.SIGINT)
+        with stop.held():  # and that once
+            pass
+
+    def test_a_renderer_that_is_just_starting_is_ended_too(self):
+        started, popen = [], subprocess.Popen
+
+        def start(_, **options):
+            started.append(popen(["sleep", "60"], **options))
+            os.kill(os.getpid(), signal.SIGTERM)
+            return started[0]
+        renderer = measure.Renderer("renderer", "/tmp", 1, 8)
+        with unittest.mock.patch.object(measure.subprocess, "Popen", start), self.assertRaises(stop.Stopped):
+            renderer.render(__file__, methods.Method("default", {}), 1, 0)
+        self.assertEqual(started[0].returncode, -signal.SIGKILL)
 
 
 class Summary(unittest.TestCase):

@@ -65,7 +65,7 @@ class ChartCommand(unittest.TestCase):
         return subprocess.run(self.command(*arguments), capture_output=True, text=True, timeout=300, check=False)
 
     def test_tiny_run_tells_everything_in_json_and_page(self):
-        done = self.run_chart("--quick", "--time", "10", "--max-spp", "4", "--methods", "default,worst",
+        done = self.run_chart("--quick", "--time", "120", "--max-spp", "4", "--methods", "default,worst",
                               "sampler=independent", "--", SCENE)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("cornell-box: reference\n", done.stderr)  # progress, in lines
@@ -77,7 +77,7 @@ class ChartCommand(unittest.TestCase):
         self.assertEqual([m["name"] for m in data["methods"]], ["default", "worst", "sampler=independent"])
         self.assertEqual(data["methods"][1]["choices"]["estimator"], "bsdf")
         scene, = data["scenes"]
-        self.assertGreaterEqual(scene["reference"]["spp"], 4)
+        self.assertGreaterEqual(scene["reference"]["spp"], 64 * 4)
         self.assertEqual(len(scene["runs"]), 3 * 3 * 2)  # methods, levels, seeds
         for run in scene["runs"]:
             self.assertEqual(run["samples"], 8 * 8 * run["spp"])
@@ -125,7 +125,7 @@ class ChartCommand(unittest.TestCase):
             text = file.read()
         with open(other, "w", encoding="utf-8") as file:
             file.write(text.replace('"meshes/', '"' + os.path.join(os.path.dirname(SCENE), "meshes/")))
-        common = ("--quick", "--max-spp", "2", "--time", "5", "--add", "-q")
+        common = ("--quick", "--max-spp", "2", "--time", "60", "--add", "-q")
         for methods, scene in (("default", SCENE), ("worst", other), ("default", SCENE)):
             done = self.run_chart(*common, "--methods", methods, "--", scene)
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -141,7 +141,8 @@ class ChartCommand(unittest.TestCase):
 
     def test_signals_keep_what_is_done(self):
         for number in (signal.SIGINT, signal.SIGTERM):
-            with subprocess.Popen(self.command("--time", "12", "--methods", "default", "worst", "--", SCENE),
+            with subprocess.Popen(self.command("--time", "120", "--max-spp", "64", "--methods", "default", "worst",
+                                               "--", SCENE),
                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
                 for line in process.stderr:
                     if "4 spp" in line:  # two levels are there

@@ -1,17 +1,16 @@
 """tools/chart: the rounds of measurements, then chart.json and the pictures.
 
-Exit codes: 0 done, 2 usage, 3 scene, 4 results that cannot be read, 5 output, 6 no renderer, 128+n stopped by signal n (what was
-measured is written), else the renderer's own.
+Exit codes: 0 done, 2 usage, 3 scene, 4 results that cannot be read, 5 output, 6 no renderer, 128+n stopped
+by signal n (what was measured is written), else the renderer's own.
 """
 import os
-import signal
 import sys
 import tempfile
 import time
 
 sys.path[0] = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
-from chart_src import accelerators, analysis, measure, options, png, reference, report  # noqa: E402
+from chart_src import accelerators, analysis, measure, options, png, reference, report, stop  # noqa: E402
 from chart_src.progress import Progress  # noqa: E402
 from chart_src.schedule import fitting  # noqa: E402
 
@@ -19,31 +18,11 @@ REFERENCE_SHARE = 0.25  # of a scene's time
 PICTURE_S = 0.4  # to draw one, kept free of `--time`, but never more than a quarter of it
 
 
-class Stopped(KeyboardInterrupt):
-    """A signal asks to end."""
-
-    def __init__(self, number):
-        super().__init__()
-        self.number = number
-
-
-def listen():
-    """The first signal raises Stopped, later ones do nothing: results are being written."""
-    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-
-    def stop(number, _):
-        for n in numbers:
-            signal.signal(n, signal.SIG_IGN)
-        raise Stopped(number)
-    for n in numbers:
-        signal.signal(n, stop)
-
-
 def measure_scene(scene, o, renderer, end, result, progress):
     """Level by level, each method with all seeds if that fits before `end` (monotonic seconds);
     seeds outside, methods inside, so that a disturbance hits all alike."""
     progress.stage(f"{result['name']}: reference")
-    ref = reference.make_reference(scene, renderer, o.cache, REFERENCE_SHARE * (end - time.monotonic()))
+    ref = reference.make_reference(scene, renderer, o.cache, REFERENCE_SHARE * (end - time.monotonic()), o.max_spp)
     result["reference"] = {"spp": ref.spp, "seconds": ref.seconds, "mse": float(ref.variance.mean()),
                            "flip": ref.flip_noise}
     took, spp, all_s = {}, 1, end - time.monotonic()
@@ -75,15 +54,18 @@ def measure_all(o, results, progress):
     with tempfile.TemporaryDirectory() as folder:
         renderer = measure.Renderer(o.renderer, folder, o.threads, o.width)
         try:
+            stop.listen()
             for i, scene in enumerate(o.scenes):
                 name = os.path.splitext(os.path.basename(scene))[0]
                 results.append({"name": name, "runs": []})
                 end = start + measuring * (i + 1) / len(o.scenes)
                 measure_scene(scene, o, renderer, end, results[-1], progress)
+            stop.ignore()  # what follows is writing
             return 0
-        except Stopped as stopped:
+        except stop.Stopped as stopped:
             return 128 + stopped.number
         except measure.RenderError as error:
+            stop.ignore()
             progress.end()
             print(error, file=sys.stderr)
             return error.code
@@ -108,7 +90,6 @@ def main(arguments):
     if not png.available():
         print("warning: no PNG: python3-matplotlib is not installed", file=sys.stderr)
     progress, results = Progress(o.quiet), []
-    listen()
     try:
         os.makedirs(o.out, exist_ok=True)
         tempfile.TemporaryFile(dir=o.out).close()

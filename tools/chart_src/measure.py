@@ -6,6 +6,8 @@ import time
 
 import numpy as np
 
+from chart_src import stop
+
 
 class RenderError(Exception):
     """The renderer refused: its own line, its exit code."""
@@ -45,18 +47,23 @@ class Renderer:
         image, stats = (os.path.join(self.folder, name) for name in ("image.pfm", "stats.json"))
         command = [self.program, "-q", "--threads", str(self.threads), "--spp", str(spp), "--seed",
                    str(seed), "-o", image, "--stats", stats, *self.size(scene), *method.arguments(), scene]
-        begun = time.monotonic()
-        process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL,
-                                   text=True, start_new_session=True)
+        begun, process = time.monotonic(), None
         try:
+            with stop.held():  # else a renderer could start that nobody ends
+                process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL,
+                                           text=True, start_new_session=True)
             errors = process.stderr.read()
             _, status, usage = os.wait4(process.pid, 0)
             process.returncode = os.waitstatus_to_exitcode(status)
             elapsed_s = time.monotonic() - begun
-        except KeyboardInterrupt:
-            process.kill()
-            process.wait()
+        except stop.Stopped:
+            if process:
+                process.kill()
+                process.wait()
             raise
+        finally:
+            if process:
+                process.stderr.close()
         if process.returncode != 0:
             raise RenderError(errors.strip(), process.returncode if process.returncode > 0 else 70)
         with open(stats, encoding="utf-8") as file:

@@ -12,6 +12,7 @@ from chart_src.methods import Method
 from chart_src.statistics import reference_variance
 
 FIRST_SEED = 1_000_000  # far from the seeds of the methods
+ENOUGH = 64  # times the samples of the best picture: its noise is then too little to matter
 
 
 class Reference:
@@ -38,19 +39,20 @@ def key_of(scene, renderer):
     return digest.hexdigest()[:24]
 
 
-def make_reference(scene, renderer, cache, budget_s):
-    """From the cache if it had at least half of `budget_s` seconds; else pairs of doubling spp that
-    fit, from 1 spp on, so that a slow scene stays within them too."""
+def make_reference(scene, renderer, cache, budget_s, max_spp):
+    """For pictures of at most `max_spp`: from the cache if it had at least half of `budget_s` seconds or is
+    good enough; else pairs of doubling spp that fit, from 1 spp on, so that a slow scene stays within
+    them too."""
     path = os.path.join(cache, key_of(scene, renderer) + ".npz")
     halves, spp, spent, level = [0.0, 0.0], 0, 0.0, 1
     if os.path.exists(path):
         with np.load(path) as kept:
             halves, spp = [kept["a"], kept["b"]], int(kept["spp"])
             spent, level = float(kept["seconds"]), int(kept["level"])
-        if spent >= budget_s / 2:
+        if spent >= budget_s / 2 or 2 * spp >= ENOUGH * max_spp:
             return Reference(*halves, 2 * spp, spent)
     end, took = time.monotonic() + budget_s, 0.0
-    while spp == 0 or time.monotonic() + 2.1 * took < end:
+    while spp == 0 or (time.monotonic() + 2.1 * took < end and 2 * spp < ENOUGH * max_spp):
         begun = time.monotonic()
         for i in range(2):
             picture, _ = renderer.render(scene, Method("default", {}), level, FIRST_SEED + 2 * level + i)

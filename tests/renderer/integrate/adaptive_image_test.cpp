@@ -232,6 +232,38 @@ TEST(AdaptiveImage, ConvergedPixelsGetNoMoreSamples) {
     EXPECT_GE(static_cast<double>(run.stats.samples), pixels * reached.spp_mean);
 }
 
+/// A wall, its left half with four hundred times the reflectance of its right, before a lamp that
+/// one direction in ten finds: all pixels are equally noisy for their brightness, 1.96 sqrt(9 / 64)
+/// = 0.7 after the first round. Against a tenth of the image's mean, the dark ones are good enough
+/// by then.
+constexpr const char* half_dark_wall = R"(<scene version="3.0.0">
+<default name="side" value="20"/><default name="spp" value="16"/><default name="seed" value="0"/>
+<default name="sampler" value="independent"/><integrator type="path"/>
+<sensor type="perspective"><float name="fov" value="39"/>
+<transform name="to_world"><lookat origin="0, 0, 4" target="0, 0, 0" up="0, 1, 0"/></transform>
+<film type="hdrfilm"><integer name="width" value="$side"/><integer name="height" value="$side"/></film>
+<sampler type="$sampler"><integer name="sample_count" value="$spp"/>
+<integer name="seed" value="$seed"/></sampler></sensor>
+<shape type="rectangle"><transform name="to_world"><scale x="2" y="2"/><translate x="-2"/></transform>
+<bsdf type="diffuse"><rgb name="reflectance" value="0.8"/></bsdf></shape>
+<shape type="rectangle"><transform name="to_world"><scale x="2" y="2"/><translate x="2"/></transform>
+<bsdf type="diffuse"><rgb name="reflectance" value="0.002"/></bsdf></shape>
+<shape type="rectangle"><transform name="to_world"><scale x="2" y="2"/>
+<rotate y="1" angle="180"/><translate z="6"/></transform>
+<emitter type="area"><rgb name="radiance" value="5"/></emitter></shape></scene>)";
+
+TEST(AdaptiveImage, PixelsFarDarkerThanTheImageNeedNotBeAsExact) {
+    RenderSetup setup = setup_of("independent", much, 0.2);
+    setup.adjust = [](Scene& scene) {
+        scene.path.max_depth = 2;
+        scene.path.estimator = Estimator::bsdf;
+    };
+    const Rendered run = render_xml(half_dark_wall, setup);
+    EXPECT_EQ(run.stats.stopped_by, StoppedBy::target_error);
+    EXPECT_EQ(run.stats.reached->spp_min, 64u) << "the dark half";
+    EXPECT_GE(run.stats.reached->spp_max, 512u) << "the bright half";
+}
+
 TEST(AdaptiveImage, TheSamplesPerPixelStayTheUpperBound) {
     for (const std::uint32_t spp : {4u, 7u, 100u, 256u}) {
         const Rendered run = render_xml(plain_box(), setup_of("sobol", spp, 1e-4));
