@@ -139,6 +139,19 @@ TEST(CompressNode, DecodedBoxesContainTheGivenOnesAndAreNoLooserThanTwoSteps) {
     }
 }
 
+TEST(CompressNode, RoundsOutwardsWhereADoubleCannotHoldTheDistance) {
+    // 1 + 1e-30 and 1 - 1e-30 from the origin of the grid: both are 1 in double, and 0 is a plane.
+    const float tiny = 1e-30f;
+    std::array<Bounds, compressed_width> boxes;
+    boxes[0] = {{-1, -1, -1}, {tiny, tiny, tiny}};
+    boxes[1] = {{-tiny, -tiny, -tiny}, {1, 1, 1}};
+    CompressedNode node{};
+    quantize({{-1, -1, -1}, {1, 1, 1}}, boxes, 3, node);
+    EXPECT_TRUE(node.bounds(0).contains(boxes[0]));
+    EXPECT_TRUE(node.bounds(1).contains(boxes[1]));
+    EXPECT_LE(node.bounds(0).upper.x, 2 * node.step(0));
+}
+
 TEST(CompressNode, SlotsHaveTheLeastCostOfAllAssignments) {
     Random random(134);
     for (std::uint32_t count = 1; count <= 6; ++count) {
@@ -232,12 +245,24 @@ TEST(CompressedTraverse, EntersEveryBoxThatTheExactTestEnters) {
         const Vec3 base = i % 2 == 0 ? Vec3{} : scale * random.point(-1000, 1000);
         std::array<Bounds, compressed_width> boxes;
         Bounds whole;
+        // Every other node: boxes on the planes of the grid, which rounding outwards leaves alone.
+        const bool on_grid = i % 4 < 2;
+        const auto corner_of = [&] {
+            if (!on_grid)
+                return base + scale * random.point(-1, 1);
+            const auto k = [&] { return static_cast<float>(random.index(256)) * 0x1p-7f * scale; };
+            const float x = k(), y = k();
+            return Vec3{x, y, k()};
+        };
         for (Bounds& box : boxes) {
-            box.extend(base + scale * random.point(-1, 1));
+            box.extend(corner_of());
             if (i % 7 != 0)
-                box.extend(base + scale * random.point(-1, 1));
-            whole.extend(box);
+                box.extend(corner_of());
         }
+        if (on_grid)
+            boxes[7] = {{0, 0, 0}, scale * 0x1p-7f * Vec3{255, 255, 255}};
+        for (const Bounds& box : boxes)
+            whole.extend(box);
         CompressedNode node{};
         quantize(whole, boxes, 0xff, node);
         node.meta[0] = 0x23222120; // leaves of one primitive each, at 0 to 7
@@ -247,7 +272,7 @@ TEST(CompressedTraverse, EntersEveryBoxThatTheExactTestEnters) {
         const Vec3 target{(corner & 1u) != 0 ? aim.upper.x : aim.lower.x,
                           (corner & 2u) != 0 ? aim.upper.y : aim.lower.y,
                           (corner & 4u) != 0 ? aim.upper.z : aim.lower.z};
-        const Vec3 origin = base + scale * random.point(-3, 3);
+        const Vec3 origin = (on_grid ? Vec3{} : base) + scale * random.point(-3, 3);
         Ray ray{origin, 0, target - origin, infinity};
         if (i % 3 == 0)
             ray.direction = std::exp(random.uniform(-20, 20)) * ray.direction;
