@@ -152,7 +152,7 @@ int run(Options options) {
     if (!options.quiet)
         print_lines(scene.warnings);
     if (options.explain) {
-        fmt::print("{}", explain(scene, features_of(scene)));
+        fmt::print("{}", explain(scene, features_of(scene), options.stop));
         return 0;
     }
     default_outputs(options);

@@ -52,6 +52,19 @@ std::string why_it_ended(const RunReport& r) {
                              reached.spp_max, reached.spp_mean);
 }
 
+/// How many samples a pixel there will be, as far as one can say.
+std::string samples_ahead(std::uint32_t spp, const StopSettings& stop) {
+    if (!stop.any())
+        return fmt::format("{} a pixel", spp);
+    std::string until;
+    if (stop.target_error > 0)
+        until = fmt::format("the error is {}", percent(stop.target_error));
+    if (stop.time_limit_s > 0)
+        until += fmt::format("{}{} have passed", until.empty() ? "" : " or ",
+                             seconds(stop.time_limit_s));
+    return fmt::format("until {}, at most {} a pixel", until, spp);
+}
+
 double mebibytes(std::size_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
 
 } // namespace
@@ -183,7 +196,7 @@ std::string to_json(const RunReport& r, const Scene& scene) {
     return out + "}\n";
 }
 
-std::string explain(const Scene& scene, const Features& needed) {
+std::string explain(const Scene& scene, const Features& needed, const StopSettings& stop) {
     std::size_t emissive = 0;
     for (const Surface& surface : scene.surfaces)
         emissive += is_black(surface.emission) ? 0u : 1u;
@@ -208,7 +221,7 @@ std::string explain(const Scene& scene, const Features& needed) {
     const Crop& crop = scene.film.crop;
     out += fmt::format("film       {} x {}, crop {} x {} at ({}, {})\n", scene.film.width,
                        scene.film.height, crop.width, crop.height, crop.x, crop.y);
-    out += fmt::format("samples    {} a pixel, {}\n", scene.sampler.spp,
+    out += fmt::format("samples    {}, {}\n", samples_ahead(scene.sampler.spp, stop),
                        scene.sampler.kind == SamplerKind::sobol ? "Owen-scrambled Sobol'"
                                                                 : "independent");
     out += fmt::format("needs      {}\n",

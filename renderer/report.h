@@ -55,6 +55,8 @@ class ProgressPrinter {
 
 [[nodiscard]] std::string closing_table(const RunReport& report);
 [[nodiscard]] std::string to_json(const RunReport& report, const Scene& scene);
-[[nodiscard]] std::string explain(const Scene& scene, const Features& needed);
+/// `stop`: what may end the render before the scene's samples are used up.
+[[nodiscard]] std::string explain(const Scene& scene, const Features& needed,
+                                  const StopSettings& stop);
 
 } // namespace plumb

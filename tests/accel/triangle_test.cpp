@@ -1,6 +1,8 @@
 /// \file  The two triangle tests alone, against extended precision.
 
+#include "accel/math/frame.h"
 #include "accel/triangle.h"
+#include "accel/validate/referee.h"
 #include "tests/support/brute_force.h"
 #include "tests/support/meshes.h"
 
@@ -239,6 +241,29 @@ TEST(TriangleTest, WatertightLosesNothingAroundAFanOfNeedles) {
                           return Ray{origin, 0, apex + s * (rim - apex) - origin, infinity};
                       }),
               0);
+}
+
+/// A needle may be hit anywhere along it within rounding, but a ray across it has one distance.
+TEST(TriangleTest, WatertightDistanceToANeedleAcrossTheRayIsExact) {
+    Random random(53);
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3 tail = random.point(-1, 1), along = random.direction();
+        const Vec3 across = Frame(along).to_world({0.004f, 0, 0});
+        const std::array positions{tail, tail + across, tail + 1.5f * along};
+        const std::array<Triangle, 1> triangles{{{0, 1, 2}}};
+        const std::array<MeshView, 1> meshes{{{positions, triangles}}};
+        const Vec3 target = tail + 0.3f * across + random.uniform(0.1f, 1) * along;
+        const Vec3 aside = Frame(along).to_world(
+            {std::cos(6.28f * random.uniform()), std::sin(6.28f * random.uniform()), 0});
+        const Vec3 origin = target + random.uniform(0.1f, 2) * aside;
+        const Ray ray{origin, 0, target - origin, infinity};
+        PrimitiveHit hit;
+        if (!intersect<TriangleTest::watertight>({positions[0], positions[1], positions[2]}, ray,
+                                                 hit))
+            continue;
+        const Judgement truth = judge(GeometryView{meshes, {}}, 0, 0, ray);
+        ASSERT_TRUE(is_right_t(truth, hit.t)) << i << ": " << hit.t << ", not " << truth.near.t;
+    }
 }
 
 TEST(TriangleTest, WatertightLosesNothingBesideTheEdgesOfLargeWalls) {

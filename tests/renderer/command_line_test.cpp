@@ -123,6 +123,8 @@ TEST_F(CommandLine, BadCallsSayWhatIsWrongAndWriteNothing) {
         {"--time-limit 3d box.xml", 2, "(got '3d', expected above 0"},
         {"--time-limit inf box.xml", 2, "(got 'inf', expected above 0"},
         {"--time-limit 1e300h box.xml", 2, "(got '1e300h', expected above 0"},
+        {"--time-limit 1e9m box.xml", 2, "(got '1e9m', expected above 0"},
+        {"--time-limit 1m30s box.xml", 2, "(got '1m30s', expected above 0"},
         {"--time-limit 1s --device=cuda box.xml", 2, "--time-limit: needs --device=cpu"},
         {"--view Sepia -o a.png box.xml", 2, "(got 'Sepia', expected one of sRGB"},
         {"-o a.exr -o a.exr box.xml", 2, "a.exr"},
@@ -209,6 +211,30 @@ TEST_F(CommandLine, ExplainNamesTheContentsAndTheKernel) {
     EXPECT_NE(run.output.find("needs      spheres, environment"), std::string::npos) << run.output;
     EXPECT_NE(run.output.find("profile 'full'"), std::string::npos);
     EXPECT_EQ(file_count(), 1u);
+}
+
+TEST_F(CommandLine, ExplainSaysWhatEndsTheSamples) {
+    const struct {
+        const char* flags;
+        const char* expected;
+    } cases[] = {
+        {"--spp 9", "samples    9 a pixel, "},
+        {"--target-error 0.01", "samples    until the error is 1 %, at most 16777216 a pixel, "},
+        {"--time-limit 30s --spp 64", "samples    until 30.00 s have passed, at most 64 a pixel, "},
+        {"--target-error 0.05 --time-limit 500ms",
+         "samples    until the error is 5 % or 500 ms have passed, at most 16777216 a pixel, "},
+        {"--time-limit 10", "until 10.00 s have passed"},
+        {"--time-limit 0.25s", "until 250 ms have passed"},
+        {"--time-limit 2m", "until 2 min 00 s have passed"},
+        {"--time-limit 1.5h", "until 90 min 00 s have passed"},
+        {"--target-error 1", "until the error is 100 %"},    // the largest
+        {"--target-error 0.1 --spp 4", "at most 4 a pixel"}, // the fewest
+    };
+    for (const auto& c : cases) {
+        const Outcome run = renderer(std::string("--explain ") + c.flags + " box.xml");
+        EXPECT_EQ(run.exit_code, 0);
+        EXPECT_NE(run.output.find(c.expected), std::string::npos) << run.output;
+    }
 }
 
 TEST_F(CommandLine, AFailedWriteLeavesWhatStoodThere) {

@@ -6,6 +6,7 @@ well as by colour; the Pareto front lies under them as a broad band.
 import html
 import math
 
+from chart_src.analysis import MEASURES
 from page_src.marks import COLOURS, DASHES, STYLE, marker
 from page_src.numbers import power
 
@@ -53,6 +54,12 @@ def spread(wanted, low, high):
     return places
 
 
+def drawn(summary, measure):
+    """(index, row, its points) of each method with something above 0 to draw."""
+    rows = [(i, row, [p for p in row["points"] if p[measure] > 0]) for i, row in enumerate(summary)]
+    return [r for r in rows if r[2]]
+
+
 def grid(x, y):
     out = []
     for t in x.ticks():
@@ -67,54 +74,57 @@ def grid(x, y):
                   "seconds of rendering</text>"]
 
 
-def guide(x, y, points):
+def guide(x, y, first):
     """What random samples do: the error falls as 1 over the time, from the default's first point."""
-    s, e = points[0]["seconds"], points[0]["mse"]
+    s, e = first
     least = max(10 ** y.low, e * s / 10 ** x.high)
     return [f'<path class="guide" d="M{x(s):.1f} {y(e):.1f}L{x(s * e / least):.1f} {y(least):.1f}">'
             "<title>error ∝ 1/time</title></path>"]
 
 
-def curve(x, y, index, row):
-    strong = " default" if row["method"] == "default" else ""
+def curve(index, name, places):
+    strong = " default" if name == "default" else ""
     dash = DASHES[index % len(DASHES)]
-    places = [(x(p["seconds"]), y(p["mse"])) for p in row["points"]]
     line = "M" + "L".join(f"{a:.1f} {b:.1f}" for a, b in places)
-    out = [f'<g><title>{html.escape(row["method"])}</title><path class="curve c{index % COLOURS}{strong}" d="{line}"'
+    out = [f'<g><title>{html.escape(name)}</title><path class="curve c{index % COLOURS}{strong}" d="{line}"'
            + (f' stroke-dasharray="{dash}"' if dash else "") + "/>"]
     return out + [f'<g transform="translate({a:.1f} {b:.1f}) scale(.62)">{marker(index, 0, 0)}</g>'
                   for a, b in places] + ["</g>"]
 
 
-def names(x, y, rows):
-    order = sorted(range(len(rows)), key=lambda i: y(rows[i]["points"][-1]["mse"]))
-    ends = [rows[i]["points"][-1] for i in order]
+def names(ends):
+    """`ends`: (index, name, place of the curve's last point)."""
     out, left = [], WIDTH - RIGHT + 10
-    for i, end, place in zip(order, ends, spread([y(p["mse"]) for p in ends], TOP + 4, HEIGHT - BOTTOM - 2)):
-        strong = ' class="strong"' if rows[i]["method"] == "default" else ""
-        out.append(f'<path class="lead" d="M{x(end["seconds"]):.1f} {y(end["mse"]):.1f}L{left - 2} {place:.1f}"/>'
-                   f'<g transform="translate({left + 4} {place:.1f}) scale(.75)">{marker(i, 0, 0)}</g>'
-                   f'<text x="{left + 11}" y="{place + 3:.1f}"{strong}>{html.escape(short(rows[i]["method"]))}</text>')
+    ends = sorted(ends, key=lambda end: end[2][1])
+    for (index, name, (a, b)), place in zip(ends, spread([end[2][1] for end in ends], TOP + 4, HEIGHT - BOTTOM - 2)):
+        strong = ' class="strong"' if name == "default" else ""
+        out.append(f'<path class="lead" d="M{a:.1f} {b:.1f}L{left - 2} {place:.1f}"/>'
+                   f'<g transform="translate({left + 4} {place:.1f}) scale(.75)">{marker(index, 0, 0)}</g>'
+                   f'<text x="{left + 11}" y="{place + 3:.1f}"{strong}>{html.escape(short(name))}</text>')
     return out
 
 
-def error_svg(result):
+def error_svg(result, measure="mse"):
     """The whole picture as text."""
-    rows = result["summary"]
-    points = [p for row in rows for p in row["points"]]
+    rows = drawn(result["summary"], measure)
+    points = [p for _, _, own in rows for p in own]
     x = Scale([p["seconds"] for p in points], LEFT, WIDTH - RIGHT)
-    y = Scale([p["mse"] for p in points], HEIGHT - BOTTOM, TOP)
-    name = html.escape(result["name"])
+    y = Scale([p[measure] for p in points], HEIGHT - BOTTOM, TOP)
+    name, what = html.escape(result["name"]), MEASURES[measure]
     out = [f'<svg class="plot" xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" '
-           f'aria-label="{name}: mean squared error against seconds, a curve for each method">',
+           f'aria-label="{name}: {what} against seconds, a curve for each method">',
            f"<style>{STYLE}{OWN_STYLE}</style>", f'<rect class="paper" width="{WIDTH}" height="{HEIGHT}"/>',
-           f'<text class="title" x="{LEFT}" y="16">{name}: mean squared error</text>']
+           f'<text class="title" x="{LEFT}" y="16">{name}: {what}</text>']
     out += grid(x, y)
-    front = sorted(((p["seconds"], p["mse"]) for p in points if p["pareto"]))
+    front = sorted((p["seconds"], p[measure]) for p in points if measure in p["front"])
     out.append('<path class="front" d="M' + "L".join(f"{x(s):.1f} {y(e):.1f}" for s, e in front)
                + '"><title>Pareto front</title></path>')
-    out += [line for row in rows if row["method"] == "default" for line in guide(x, y, row["points"])]
-    order = sorted(range(len(rows)), key=lambda i: rows[i]["method"] == "default")
-    for index in order:  # the default on top
-        out += curve(x, y, index, rows[index])
-    return "\n".join(out + names(x, y, rows) + ["</svg>"]) + "\n"
+    if measure != "flip":  # which is no variance
+        out += [line for _, row, own in rows if row["method"] == "default"
+                for line in guide(x, y, (own[0]["seconds"], own[0][measure]))]
+    ends = []
+    for index, row, own in sorted(rows, key=lambda r: r[1]["method"] == "default"):  # the default on top
+        places = [(x(p["seconds"]), y(p[measure])) for p in own]
+        out += curve(index, row["method"], places)
+        ends.append((index, row["method"], places[-1]))
+    return "\n".join(out + names(ends) + ["</svg>"]) + "\n"

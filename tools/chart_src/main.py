@@ -1,9 +1,8 @@
-"""tools/chart: the rounds of measurements, chart.json and the pictures.
+"""tools/chart: the rounds of measurements, then chart.json and the pictures.
 
-Exit codes: 0 done, 2 usage, 3 scene, 5 output, 6 no renderer, 128+n stopped by signal n (what was
+Exit codes: 0 done, 2 usage, 3 scene, 4 results that cannot be read, 5 output, 6 no renderer, 128+n stopped by signal n (what was
 measured is written), else the renderer's own.
 """
-import json
 import os
 import signal
 import sys
@@ -12,13 +11,12 @@ import time
 
 sys.path[0] = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
-from chart_src import analysis, measure, options, reference  # noqa: E402
-from chart_src.error_svg import error_svg  # noqa: E402
-from chart_src.page import page  # noqa: E402
+from chart_src import accelerators, analysis, measure, options, png, reference, report  # noqa: E402
 from chart_src.progress import Progress  # noqa: E402
-from page_src.files import write  # noqa: E402
+from chart_src.schedule import fitting  # noqa: E402
 
 REFERENCE_SHARE = 0.25  # of a scene's time
+PICTURE_S = 0.4  # to draw one, kept free of `--time`, but never more than a quarter of it
 
 
 class Stopped(KeyboardInterrupt):
@@ -46,15 +44,12 @@ def measure_scene(scene, o, renderer, end, result, progress):
     seeds outside, methods inside, so that a disturbance hits all alike."""
     progress.stage(f"{result['name']}: reference")
     ref = reference.make_reference(scene, renderer, o.cache, REFERENCE_SHARE * (end - time.monotonic()))
-    result["reference"] = {"spp": ref.spp, "seconds": ref.seconds, "mse": float(ref.variance.mean())}
-    took, spp = {}, 1
+    result["reference"] = {"spp": ref.spp, "seconds": ref.seconds, "mse": float(ref.variance.mean()),
+                           "flip": ref.flip_noise}
+    took, spp, all_s = {}, 1, end - time.monotonic()
     while spp <= o.max_spp:
-        fits, left = [], end - time.monotonic()
-        for m in o.chosen:
-            need = 2.2 * took.get((m.name, spp // 2), 0.0 if spp == 1 else 1e30)
-            if need <= left:
-                fits.append(m)
-                left -= need
+        names = fitting([m.name for m in o.chosen], took, spp, o.max_spp, end - time.monotonic(), all_s)
+        fits = [m for m in o.chosen if m.name in names]
         if not fits:
             return
         progress.stage(f"{result['name']}: {spp} spp, {len(fits)} of {len(o.chosen)} methods")
@@ -75,13 +70,15 @@ def measure_scene(scene, o, renderer, end, result, progress):
 def measure_all(o, results, progress):
     """Exit code; what was measured until then stands in `results`."""
     start = time.monotonic()
+    pictures = len(o.scenes) * len(analysis.MEASURES) + 1
+    measuring = o.time - min(PICTURE_S * pictures if png.available() else 0.0, o.time / 4)
     with tempfile.TemporaryDirectory() as folder:
         renderer = measure.Renderer(o.renderer, folder, o.threads, o.width)
         try:
             for i, scene in enumerate(o.scenes):
                 name = os.path.splitext(os.path.basename(scene))[0]
                 results.append({"name": name, "runs": []})
-                end = start + o.time * (i + 1) / len(o.scenes)
+                end = start + measuring * (i + 1) / len(o.scenes)
                 measure_scene(scene, o, renderer, end, results[-1], progress)
             return 0
         except Stopped as stopped:
@@ -90,29 +87,6 @@ def measure_all(o, results, progress):
             progress.end()
             print(error, file=sys.stderr)
             return error.code
-
-
-def cpu_model():
-    with open("/proc/cpuinfo", encoding="utf-8") as file:
-        return next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "unknown")
-
-
-def report(o, version, results, complete):
-    """Writes everything; nothing where nothing was measured."""
-    results = [r for r in results if r["runs"]]
-    for r in results:
-        r["summary"] = analysis.summary(r["runs"])
-    if not results:
-        return
-    table = {"renderer": version, "cpu": cpu_model(), "clock": o.clock, "threads": o.threads, "width": o.width,
-             "seeds": o.seeds, "time_s": o.time, "complete": complete, "scenes": results,
-             "methods": [{"name": m.name, "choices": m.choices} for m in o.chosen]}
-    write(os.path.join(o.out, "chart.json"), json.dumps(table) + "\n")
-    write(os.path.join(o.out, "chart.html"), page(table))
-    for r in results:
-        if r["summary"]:
-            write(os.path.join(o.out, r["name"] + ".svg"), error_svg(r))
-            print(analysis.text(r))
 
 
 def main(arguments):
@@ -126,6 +100,13 @@ def main(arguments):
     except OSError as error:
         print(f"{o.renderer}: error: cannot run: {error.strerror}", file=sys.stderr)
         return 6
+    try:
+        second, before = report.second_chart(o), report.earlier(o, version)
+    except accelerators.InputError as error:
+        print(error, file=sys.stderr)
+        return 4
+    if not png.available():
+        print("warning: no PNG: python3-matplotlib is not installed", file=sys.stderr)
     progress, results = Progress(o.quiet), []
     listen()
     try:
@@ -133,7 +114,7 @@ def main(arguments):
         tempfile.TemporaryFile(dir=o.out).close()
         code = measure_all(o, results, progress)
         progress.end()
-        report(o, version, results, code == 0)
+        report.write_all(o, version, before, results, second, code == 0)
     except OSError as error:
         print(f"{error.filename or o.out}: error: cannot write: {error.strerror}", file=sys.stderr)
         return 5

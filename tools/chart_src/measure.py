@@ -2,6 +2,7 @@
 import json
 import os
 import subprocess
+import time
 
 import numpy as np
 
@@ -44,12 +45,14 @@ class Renderer:
         image, stats = (os.path.join(self.folder, name) for name in ("image.pfm", "stats.json"))
         command = [self.program, "-q", "--threads", str(self.threads), "--spp", str(spp), "--seed",
                    str(seed), "-o", image, "--stats", stats, *self.size(scene), *method.arguments(), scene]
+        begun = time.monotonic()
         process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL,
                                    text=True, start_new_session=True)
         try:
             errors = process.stderr.read()
             _, status, usage = os.wait4(process.pid, 0)
             process.returncode = os.waitstatus_to_exitcode(status)
+            elapsed_s = time.monotonic() - begun
         except KeyboardInterrupt:
             process.kill()
             process.wait()
@@ -58,21 +61,23 @@ class Renderer:
             raise RenderError(errors.strip(), process.returncode if process.returncode > 0 else 70)
         with open(stats, encoding="utf-8") as file:
             told = json.load(file)
-        cpu_s = usage.ru_utime + usage.ru_stime
-        # Load and build are not the method's: the same share of the CPU time as of the wall's.
+        # Starting, loading and building are not the method's: of the rendering's wall time the share that
+        # the whole process had of its own.
+        cpu_s = told["render_s"] * (usage.ru_utime + usage.ru_stime) / elapsed_s
         record = {"method": method.name, "spp": spp, "seed": seed, "wall_s": told["render_s"],
-                  "cpu_s": cpu_s * told["render_s"] / told["total_s"], "samples": told["samples"],
+                  "cpu_s": cpu_s, "samples": told["samples"],
                   "rays": told["rays"]["total"], "memory_bytes": told["peak_bytes"]}
         return read_pfm(image), record
 
 
 def errors_of(picture, reference):
-    """MSE and relMSE = mean(d^2 / (ref^2 + 0.01)), both less the reference's own variance."""
+    """MSE and relMSE = mean(d^2 / (ref^2 + 0.01)), both less the reference's own variance; FLIP, which
+    nothing can be taken off: the reference's `flip_noise` says where it stops to tell."""
     square = (picture - reference.mean) ** 2
     weight = 1 / (reference.mean ** 2 + 0.01)
     return {"mse": float((square - reference.variance).mean()), "mse_raw": float(square.mean()),
             "relmse": float(((square - reference.variance) * weight).mean()),
-            "outlier_share": outlier_share(square)}
+            "outlier_share": outlier_share(square), "flip": reference.flip.mean(picture)}
 
 
 def outlier_share(square):

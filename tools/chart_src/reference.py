@@ -6,6 +6,7 @@ import time
 
 import numpy as np
 
+from chart_src.flip_hdr import HdrFlip
 from chart_src.measure import version
 from chart_src.methods import Method
 from chart_src.statistics import reference_variance
@@ -18,6 +19,9 @@ class Reference:
         self.halves, self.spp, self.seconds = (half_a, half_b), spp, seconds
         self.mean = (half_a + half_b) / 2
         self.variance = reference_variance(half_a, half_b)
+        self.flip = HdrFlip(self.mean)
+        # Of one half: its noise is that of the mean times the root of two.
+        self.flip_noise = self.flip.mean(half_a)
 
 
 def key_of(scene, renderer):

@@ -10,7 +10,7 @@ T95 = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.
 
 def t95(freedom):
     """Beyond the table: Cornish-Fisher, within 0.1 %."""
-    return T95[freedom - 1] if freedom <= len(T95) else 1.95996 + 2.3722 / freedom
+    return T95[freedom - 1] if freedom <= len(T95) else 1.95996 + 2.37228 / freedom + 2.8225 / freedom ** 2
 
 
 def mean_interval(values):
@@ -26,6 +26,17 @@ def mean_interval(values):
 def geometric_interval(values):
     """The same for positive values, on their logarithms."""
     return tuple(None if v is None else math.exp(v) for v in mean_interval(np.log(values)))
+
+
+def rate_interval(failures, trials):
+    """(low, high) at 95 % of a rate (Wilson 1927). No failure: from 0 to the rate of which none would be
+    seen with a chance of 5 %, the rule of three."""
+    if failures == 0:
+        return 0.0, 1 - 0.05 ** (1 / trials)
+    z = 1.95996
+    middle = (failures + z * z / 2) / (trials + z * z)
+    half = z / (trials + z * z) * math.sqrt(failures * (trials - failures) / trials + z * z / 4)
+    return middle - half, middle + half
 
 
 def slope(x, y):

@@ -3,13 +3,13 @@ import os
 import tempfile
 
 
-def write(path, text):
-    """The file appears whole or not at all; OSError if it cannot be written."""
+def write(path, content):
+    """Text or bytes: the file appears whole or not at all; OSError if it cannot be written."""
     folder = os.path.dirname(os.path.abspath(path))
     handle, temporary = tempfile.mkstemp(dir=folder, prefix=".", suffix=".tmp")
     try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
+        with os.fdopen(handle, "wb") as file:
+            file.write(content.encode() if isinstance(content, str) else content)
             file.flush()
             os.fsync(file.fileno())
         mask = os.umask(0)

@@ -9,7 +9,7 @@ STYLE = """
 .map .t4{fill:#fff}.map .bad{stroke:#c00000;stroke-width:3}
 @media (prefers-color-scheme:dark){
 .map text{fill:#ddd}.map .paper{fill:#181818}.map .cell{stroke:#555}
-.map .l0{fill:#181818}.map .l1{fill:#3a2714}.map .l2{fill:#69400f}.map .l3{fill:#b86414}.map .l4{fill:#ffb366}
+.map .l0{fill:#181818}.map .l1{fill:#3a2714}.map .l2{fill:#69400f}.map .l3{fill:#ad5d12}.map .l4{fill:#ffb366}
 .map .t4{fill:#111}.map .t3{fill:#fff}.map .bad{stroke:#ff6b6b}}
 """
 

@@ -25,7 +25,7 @@ from results import Results  # noqa: E402
 STYLE = BASE + """td.none{border-color:transparent}.l1{background:var(--l1)}.l2{background:var(--l2)}
 .l3{background:var(--l3);color:var(--t3)}.l4{background:var(--l4);color:var(--t4)}
 .bad{outline:3px solid var(--red);outline-offset:-3px}.red{color:var(--red);font-weight:700}
-figure{margin:0;overflow-x:auto}figure svg{width:100%;min-width:32rem;height:auto;max-width:44rem}summary{cursor:pointer}
+figure{margin:0;overflow-x:auto}figure svg{width:100%;min-width:34rem;height:auto;max-width:44rem}summary{cursor:pointer}
 @media (max-width:40rem){body{padding:.6rem}th,td{padding:.15rem .3rem;font-size:.85rem}}
 """
 

@@ -91,10 +91,17 @@ test_packet_watertight(const RayPacket<P>& packet, const WideTriangles& block, s
     if (inside == 0)
         return;
     const Floats scale = P::broadcast(1) / (u + v + w);
+    const auto weigh = [](const Floats& a, const Floats& b, const Floats& c, const Floats(&at)[3]) {
+        return a * at[0] + b * at[1] + c * at[2];
+    };
+    const float(&p)[3] = detail::projection_coefficient;
+    const Floats s = shear_x * shear_x + shear_y * shear_y;
+    const Floats share = P::broadcast(p[0]) + s * (P::broadcast(p[1]) + s * P::broadcast(p[2]));
+    const Floats slide = (weigh(u, v, w, x) * shear_x + weigh(u, v, w, y) * shear_y) * share;
     hits.u = v * scale;
     hits.v = w * scale;
     hits.t =
-        (u * scale * z[0] + hits.u * z[1] + hits.v * z[2]) * P::load(packet.inverse[packet.kz]);
+        (weigh(u * scale, hits.u, hits.v, z) + slide * scale) * P::load(packet.inverse[packet.kz]);
     settle_packet<P>(packet, block, lane, inside, hits);
 }
 

@@ -84,9 +84,16 @@ template <class V>
     if (inside == 0)
         return;
     const Floats scale = V::broadcast(1) / (u + v + w);
+    const auto weigh = [](const Floats& a, const Floats& b, const Floats& c, const Floats(&at)[3]) {
+        return a * at[0] + b * at[1] + c * at[2];
+    };
+    const float(&p)[3] = detail::projection_coefficient;
+    const float s = ray.shear[ray.kx] * ray.shear[ray.kx] + ray.shear[ray.ky] * ray.shear[ray.ky];
+    const Floats share = V::broadcast(p[0] + s * (p[1] + s * p[2]));
+    const Floats slide = (weigh(u, v, w, x) * shear_x + weigh(u, v, w, y) * shear_y) * share;
     const Floats weight_b = v * scale, weight_c = w * scale;
-    Floats t =
-        (u * scale * z[0] + weight_b * z[1] + weight_c * z[2]) * V::broadcast(ray.inverse[ray.kz]);
+    Floats t = (weigh(u * scale, weight_b, weight_c, z) + slide * scale) *
+               V::broadcast(ray.inverse[ray.kz]);
     settle_lanes<V>(ray, block, tmax, inside, t, hits);
     if (hits.hit == 0)
         return;

@@ -25,9 +25,9 @@
 namespace plumb {
 namespace {
 
-/// Rays and scenes within these bounds overflow nowhere in the fused test; others take the slow
-/// path of one box at a time.
-inline constexpr float wide_max_coordinate = 0x1p40f;
+/// Rays and scenes within these bounds overflow nowhere in the fused test, nor in the products of
+/// three coordinates of the triangle test; others take the slow path of one box at a time.
+inline constexpr float wide_max_coordinate = 0x1p38f; // cubes, 2^127 at most, are finite
 inline constexpr float wide_min_direction = 0x1p-40f, wide_max_direction = 0x1p40f;
 
 inline __m128 absolute4(__m128 x) { return _mm_andnot_ps(_mm_set1_ps(-0.0f), x); }

@@ -1,6 +1,5 @@
 /// \file  The relative error of pixels and images: formulas by hand, and coverage by simulation.
 
-#include "renderer/integrate/deadline.h"
 #include "renderer/integrate/pixel_error.h"
 #include "tests/support/random.h"
 #include "tests/support/statistics.h"
@@ -95,26 +94,6 @@ TEST(MeanOfHalves, GivesEachHalfOneHalf) {
     EXPECT_EQ(mean_of_halves(a, {}).sum[0], 4);
     EXPECT_EQ(mean_of_halves({}, a).count, 2u);
     EXPECT_EQ(mean_of_halves({}, {}).count, 0u);
-}
-
-TEST(Deadline, WithoutALimitOnePassDoesAll) {
-    Deadline none(0);
-    EXPECT_EQ(none.reachable(3, 1000, 100), 1000u);
-    EXPECT_EQ(none.share_used(), 0);
-}
-
-TEST(Deadline, TakesOneSampleFirstThenWhatFits) {
-    Deadline day(86400);
-    EXPECT_EQ(day.reachable(0, 1000, 100), 1u);
-    day.passed();
-    EXPECT_EQ(day.reachable(1, 1000, 100), 1000u);
-    Deadline over(1e-9);
-    EXPECT_EQ(over.reachable(0, 1000, 100), 1u); // at least one, so that no pixel is empty
-    while (over.share_used() < 2) {
-    }
-    over.passed();
-    EXPECT_EQ(over.reachable(1, 1000, 100), 1u);
-    EXPECT_GE(over.share_used(), 1);
 }
 
 } // namespace
