@@ -20,12 +20,16 @@ struct Ray {
     float tmax = infinity;
 };
 
-/// What every Intersector accepts: finite origin and direction of at most 1.8e18 a component, a
-/// direction that is not zero, 0 <= tmin <= tmax. Any other ray is a miss.
+/// Directions without a component of this size are too short: 1 / direction is infinite for those
+/// below 2^-128.
+inline constexpr float min_direction = std::numeric_limits<float>::min();
+
+/// What every Intersector accepts: finite origin and direction of at most 1.8e18 a component, one
+/// component of the direction at least min_direction, 0 <= tmin <= tmax. Any other ray is a miss.
 [[nodiscard]] RT_HD inline bool is_valid(const Ray& ray) {
-    const Vec3 d = ray.direction;
-    return is_finite(ray.origin) && is_finite(d) && (d.x != 0 || d.y != 0 || d.z != 0) &&
-           ray.tmin >= 0 && ray.tmin <= ray.tmax;
+    return is_finite(ray.origin) && is_finite(ray.direction) &&
+           max_component(abs(ray.direction)) >= min_direction && ray.tmin >= 0 &&
+           ray.tmin <= ray.tmax;
 }
 
 /// Closest intersection. On a triangle (a, b, c) the point is (1-u-v) a + u b + v c; on a sphere u

@@ -26,7 +26,7 @@ std::vector<Ray> invalid_rays() {
             rays.push_back(good);
             rays.back().direction[axis] = bad;
         }
-    for (const Vec3 zero : {Vec3{0, 0, 0}, Vec3{-0.0f, 0, -0.0f}}) {
+    for (const Vec3 zero : {Vec3{0, 0, 0}, Vec3{-0.0f, 0, -0.0f}, Vec3{0, 1e-39f, -1e-45f}}) {
         rays.push_back(good);
         rays.back().direction = zero;
     }
@@ -71,6 +71,23 @@ TEST_P(IntersectorRays, ASignedZeroIsAZero) {
         hits += a.valid();
     }
     EXPECT_GT(hits, 500);
+}
+
+TEST_P(IntersectorRays, DirectionsHitDownToTheSmallestThatIsValid) {
+    TestGeometry scene;
+    scene.add(Sphere{{0, 0, 2}, 1});
+    Mesh wall;
+    wall.add_triangle({-1, -1, 0.5f}, {1, -1, 0.5f}, {0, 1, 0.5f});
+    scene.add(std::move(wall));
+    const auto accel = build(scene.view());
+    // Embree takes 1e-18 for the smallest (accel/embree/README.md).
+    const float smallest = GetParam().kind == AccelKind::embree ? 1e-17f : min_direction;
+    Ray ray{{0, 0, 0}, 0, {0, 0, smallest}, infinity};
+    ASSERT_TRUE(is_valid(ray));
+    EXPECT_FLOAT_EQ(accel->closest(ray).t, 0.5f / smallest);
+    EXPECT_TRUE(accel->occluded(ray));
+    ray.direction.z = std::nextafter(min_direction, 0.0f);
+    EXPECT_FALSE(is_valid(ray));
 }
 
 double median_seconds(const Intersector& accel, const std::vector<Ray>& rays) {
