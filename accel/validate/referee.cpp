@@ -7,7 +7,8 @@
 namespace plumb {
 namespace {
 
-constexpr double u = 0x1p-24; // unit_roundoff
+constexpr double u = 0x1p-24;         // unit_roundoff
+constexpr double smallest = 0x1p-149; // float's step below 2^-126, where errors are not relative
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 struct Double3 {
@@ -131,6 +132,7 @@ Judgement judge_triangle(const TriangleVertices& vertices, const Ray& ray) {
     const double a = length(e1), b = length(e2);
     c.t_error =
         8 * u * (length(cross(e1, e2)) * tri.reach + a * b * std::max(a, b)) / (size * view.speed);
+    c.t_error += 8 * smallest * (1 + 2 / view.speed);
     for (std::size_t i = 0; i < 3; ++i)
         c.t_error += error[i] / size * std::fabs(tri.t[i] - c.t) + 4 * u * std::fabs(tri.t[i]) / 3;
     c.in_range = range_of(c, ray);
@@ -156,7 +158,8 @@ Judgement judge_sphere(const Sphere& sphere, const Ray& ray) {
     const double middle = dot(view.along, center);
     for (Crossing* c : {&out.near, &out.far}) {
         c->t = (middle + (c == &out.near ? -half : half)) / view.speed;
-        c->t_error = (chord_error + 8 * u * (distance + r)) / view.speed;
+        c->t_error = (chord_error + 8 * u * (distance + r)) / view.speed +
+                     8 * smallest * (1 + 2 / view.speed);
         c->in_range = range_of(*c, ray);
     }
     // A hit is certain if a crossing is, even if rounding decides which of the two counts.

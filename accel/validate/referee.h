@@ -43,7 +43,8 @@ struct Judgement {
 /// - t. Edge functions are weights of the vertices' depths, so their errors times the difference in
 ///   depth, divided by the projected area; tests that divide by the normal n (Embree) err by
 ///   8 u (|n| R + |e1| |e2| |e|) over that area: both grow by 1 / cosine at grazing hits. Never
-///   less than 4 u of the farthest depth, for the slab interval into which hits are moved.
+///   less than 4 u of the farthest depth, for the slab interval into which hits are moved, and than
+///   a few of float's smallest numbers, where rounding is not relative.
 /// - u and v: the edge functions' errors over the area, and 4 u.
 /// - Spheres. All tests here are in double, so t is wrong by the float slab interval into which it
 ///   is moved, 8 u of the distance over the speed, and by the square root at the silhouette. The
