@@ -140,8 +140,7 @@ void require_right(const GeometryView& view, const Ray& ray, const Hit& hit) {
 }
 
 /// Whether a ray leaves the range of float inside Embree (its README): directions and determinants
-/// below 1e-18, by which it does not divide, determinants above 3e38, distances that are not normal
-/// numbers.
+/// below 1e-18, by which it does not divide, determinants above 3e38, distances and t below 1e-30.
 bool is_beyond_embree(const GeometryView& view, const Ray& ray, const Hit& hit) {
     const auto speed = static_cast<double>(max_component(abs(ray.direction)));
     double reach = 0;
@@ -151,7 +150,7 @@ bool is_beyond_embree(const GeometryView& view, const Ray& ray, const Hit& hit) 
                 reach = std::max(reach, static_cast<double>(max_component(abs(p - ray.origin))));
     if (reach * reach * std::max(speed, 1.0) > 1e36 || speed < 1e-16)
         return true;
-    if (hit.valid() && hit.t < 0x1p-126f)
+    if (hit.valid() && static_cast<double>(hit.t) * std::min(speed, 1.0) < 1e-30)
         return true;
     return hit.valid() && !view.is_sphere(hit.geometry) &&
            primitive_area(view, hit.geometry, hit.primitive) * speed < 1e-17;
