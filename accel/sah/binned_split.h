@@ -45,8 +45,9 @@ struct BinnedSplit {
     }
 };
 
-/// Axes along which splits are looked for: `widest` is that of the centroids' box. It takes half
-/// the time, and the trees cost a few per cent more.
+/// Axes along which splits are looked for: `widest` is that of the centroids' box. It saves a tenth
+/// to a sixth of a build; greedy as both are, the trees cost from 9 % less to 0.4 % more on the
+/// benchmark's meshes.
 enum class SplitAxes : std::uint8_t { all, widest };
 
 /// The cheapest split with primitives on both sides; nothing where no axis has one. Areas are
