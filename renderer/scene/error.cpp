@@ -7,7 +7,8 @@ std::string message(const SourceLocation& where, const std::string& what,
                     const std::vector<SourceLocation>& included_from) {
     std::string text = to_string(where);
     text += text.empty() ? "error: " : ": error: ";
-    text += what;
+    for (const char c : what) // a file's own text may be quoted, &#13; and all
+        text += (c >= 0 && c < ' ' && c != '\n') || c == 0x7F ? '?' : c;
     for (const SourceLocation& outer : included_from)
         text += "\n  included from " + to_string(outer);
     return text;
