@@ -202,6 +202,20 @@ TEST(TriangleTest, HasNoAbsoluteEpsilon) {
     }
 }
 
+TEST(TriangleTest, WatertightHitsTrianglesWhoseCubesOverflow) {
+    Random random(45);
+    for (int i = 0; i < 256; ++i) {
+        const Case c = random_case(random);
+        constexpr float scale = 0x1p48f;
+        const TriangleVertices t{scale * c.triangle.a, scale * c.triangle.b, scale * c.triangle.c};
+        const Ray ray{scale * c.ray.origin, 0, c.ray.direction, infinity};
+        PrimitiveHit hit{}, unit{};
+        ASSERT_TRUE(intersect<TriangleTest::watertight>(t, ray, hit));
+        ASSERT_TRUE(intersect<TriangleTest::watertight>(c.triangle, c.ray, unit));
+        EXPECT_NEAR(static_cast<double>(hit.t / scale), static_cast<double>(unit.t), 2 * limit);
+    }
+}
+
 /// Rays from inside a closed mesh that hit none of its triangles.
 template <class MakeRay> int escapes(const Mesh& mesh, int rays, MakeRay&& make_ray) {
     int lost = 0;
