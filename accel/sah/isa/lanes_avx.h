@@ -2,19 +2,25 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <immintrin.h>
 
 namespace plumb {
 namespace {
 
-/// For each mask the numbers of the lanes whose bits are set, a byte each, lowest first.
+/// For each mask the numbers of the lanes whose bits are set, a byte each, lowest first; then one
+/// of a lane whose bit is not.
 inline constexpr auto packing = [] {
     std::array<std::uint64_t, 256> table{};
-    for (unsigned mask = 0; mask < 256; ++mask)
-        for (unsigned lane = 0, count = 0; lane < 8; ++lane)
+    for (unsigned mask = 0; mask < 256; ++mask) {
+        unsigned count = 0;
+        for (unsigned lane = 0; lane < 8; ++lane)
             if ((mask >> lane & 1u) != 0)
                 table[mask] |= std::uint64_t{lane} << (8 * count++);
+        for (; count < 8; ++count)
+            table[mask] |= static_cast<std::uint64_t>(std::countr_one(mask)) << (8 * count);
+    }
     return table;
 }();
 
@@ -49,10 +55,68 @@ struct Lanes {
     /// Writes the numbers whose bit is set, in order, and anything behind them up to eight.
     static void store_packed(std::uint32_t* to, const std::uint32_t* from, unsigned mask) {
         const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
-        const __m256i lanes =
-            _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(packing[mask])));
         _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
-                            _mm256_permutevar8x32_epi32(all, lanes));
+                            _mm256_permutevar8x32_epi32(all, packed_lanes(mask)));
+    }
+    /// Writes stack entries (enter_children.h) of the children in the mask `entered`, farthest
+    /// first, and returns how many; what follows up to eight may be overwritten. Sorted by the
+    /// distance less its last three bits, which hold the lane meanwhile: four without a jump.
+    static int push_sorted(std::uint64_t* to, Floats near, Floats entered,
+                           const std::uint32_t* child) {
+        const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+        const __m256i distance =
+            _mm256_andnot_si256(_mm256_set1_epi32(lane_bits), _mm256_castps_si256(near));
+        const __m256i keys = _mm256_and_si256(_mm256_or_si256(distance, lane),
+                                              _mm256_castps_si256(entered)); // others last
+        const __m256i refs = _mm256_load_si256(reinterpret_cast<const __m256i*>(child));
+        const unsigned mask = bits(entered);
+        const int count = std::popcount(mask);
+        __m256i packed = _mm256_permutevar8x32_epi32(keys, packed_lanes(mask));
+        if (count > 4) [[unlikely]] {
+            packed = sort_eight(packed, count);
+            store_entries(to + 4, _mm256_extracti128_si256(packed, 1), refs);
+        } else {
+            packed = _mm256_castsi128_si256(sort_four(_mm256_castsi256_si128(packed)));
+        }
+        store_entries(to, _mm256_castsi256_si128(packed), refs);
+        return count;
+    }
+
+  private:
+    static constexpr int lane_bits = 7;
+
+    static __m256i packed_lanes(unsigned mask) {
+        return _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(packing[mask])));
+    }
+    /// Descending.
+    static __m128i sort_four(__m128i x) {
+        __m128i other = _mm_shuffle_epi32(x, 0b10'11'00'01);
+        x = _mm_blend_epi32(_mm_max_epu32(x, other), _mm_min_epu32(x, other), 0b1010);
+        other = _mm_shuffle_epi32(x, 0b01'00'11'10);
+        x = _mm_blend_epi32(_mm_max_epu32(x, other), _mm_min_epu32(x, other), 0b1100);
+        other = _mm_shuffle_epi32(x, 0b11'01'10'00);
+        return _mm_blend_epi32(_mm_max_epu32(x, other), _mm_min_epu32(x, other), 0b0100);
+    }
+    /// Descending, the first `count`.
+    static __m256i sort_eight(__m256i x, int count) {
+        alignas(32) std::uint32_t key[8];
+        _mm256_store_si256(reinterpret_cast<__m256i*>(key), x);
+        for (int i = 1; i < count; ++i) {
+            const std::uint32_t one = key[i];
+            int j = i;
+            for (; j > 0 && key[j - 1] < one; --j)
+                key[j] = key[j - 1];
+            key[j] = one;
+        }
+        return _mm256_load_si256(reinterpret_cast<const __m256i*>(key));
+    }
+    static void store_entries(std::uint64_t* to, __m128i keys, __m256i refs) {
+        const __m128i near = _mm_andnot_si128(_mm_set1_epi32(lane_bits), keys);
+        const __m128i ref =
+            _mm256_castsi256_si128(_mm256_permutevar8x32_epi32(refs, _mm256_castsi128_si256(keys)));
+        auto* out = reinterpret_cast<__m128i*>(to);
+        _mm_storeu_si128(out, _mm_unpacklo_epi32(ref, near));
+        _mm_storeu_si128(out + 1, _mm_unpackhi_epi32(ref, near));
     }
 };
 

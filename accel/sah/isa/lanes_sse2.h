@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <emmintrin.h>
 
@@ -80,6 +81,24 @@ struct Lanes {
     static void store_packed(std::uint32_t* to, const std::uint32_t* from, unsigned mask) {
         for (; mask != 0; mask &= mask - 1)
             *to++ = from[std::countr_zero(mask)];
+    }
+    /// Writes stack entries (enter_children.h) of the children in the mask `entered`, farthest
+    /// first, and returns how many.
+    static int push_sorted(std::uint64_t* to, Floats near, Floats entered,
+                           const std::uint32_t* child) {
+        alignas(16) std::uint32_t distance[8];
+        _mm_store_si128(reinterpret_cast<__m128i*>(distance), _mm_castps_si128(near.low));
+        _mm_store_si128(reinterpret_cast<__m128i*>(distance + 4), _mm_castps_si128(near.high));
+        int count = 0;
+        for (unsigned mask = bits(entered); mask != 0; mask &= mask - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(mask));
+            const std::uint64_t entry = std::uint64_t{distance[lane]} << 32 | child[lane];
+            int i = count++;
+            for (; i > 0 && to[i - 1] < entry; --i)
+                to[i] = to[i - 1];
+            to[i] = entry;
+        }
+        return count;
     }
 };
 

@@ -1,6 +1,7 @@
 /// \file  Fills a table of kernels from the templates. For the files of one instruction set only.
 #pragma once
 
+#include "accel/sah/isa/interleaved.h"
 #include "accel/sah/isa/kernels.h"
 #include "accel/sah/isa/packet_stream.h"
 #include "accel/sah/isa/packet_traverse.h"
@@ -28,15 +29,8 @@ inline bool resembles_last(const WideView& tree, const Ray& ray) {
     return std::popcount(past.near & 0xffffu) > 8;
 }
 
-/// For instruction sets without packets.
-struct NoPackets {
-    static constexpr int width = 0;
-};
-
 /// `V`: lanes of boxes and triangles, `P`: lanes of rays or NoPackets.
 template <class V, class P, TriangleTest Test> struct Kernels {
-    static constexpr bool has_packets = P::width > 0 && Test == TriangleTest::watertight;
-
     static Hit closest(const WideView& tree, const Ray& ray) {
         if (!WideRay::is_ordinary(ray, tree.reach)) [[unlikely]]
             return closest_careful(tree, ray, Test);
@@ -58,20 +52,17 @@ template <class V, class P, TriangleTest Test> struct Kernels {
 
     static void closest_stream(const WideView& tree, std::span<const Ray> rays,
                                std::span<Hit> hits) {
-        trace_stream<P>(
-            tree, rays, [&](std::size_t i) { hits[i] = closest(tree, rays[i]); },
-            [&](std::span<const std::uint32_t> of, auto& traversal) {
-                for (std::size_t i = 0; i < of.size(); ++i)
-                    hits[of[i]] = traversal.hit(i);
-            });
+        trace_stream<false>(
+            tree, rays, [&](std::size_t i) { hits[i] = closest_careful(tree, rays[i], Test); },
+            [&](std::size_t i, const NumberedHit& best) { hits[i] = best.with_ids(tree); });
     }
     static void occluded_stream(const WideView& tree, std::span<const Ray> rays,
                                 std::span<std::uint8_t> found) {
-        trace_stream<P, true>(
-            tree, rays, [&](std::size_t i) { found[i] = occluded(tree, rays[i]) ? 1 : 0; },
-            [&](std::span<const std::uint32_t> of, auto& traversal) {
-                for (std::size_t i = 0; i < of.size(); ++i)
-                    found[of[i]] = traversal.found(i) ? 1 : 0;
+        trace_stream<true>(
+            tree, rays,
+            [&](std::size_t i) { found[i] = occluded_careful(tree, rays[i], Test) ? 1 : 0; },
+            [&](std::size_t i, const NumberedHit& best) {
+                found[i] = best.number != invalid_id ? 1 : 0;
             });
     }
 
@@ -89,25 +80,48 @@ template <class V, class P, TriangleTest Test> struct Kernels {
     }
 
   private:
-    /// As packets where there are any, else one by one. `one(i)` traces a ray; `take(indices,
-    /// traversal)` takes the results of a packet.
-    template <class Lanes, bool AnyHit = false, class One, class Take>
-    static void trace_stream(const WideView& tree, std::span<const Ray> rays, One&& one,
+    using Packets = std::conditional_t<Test == TriangleTest::watertight, P, NoPackets>;
+
+    /// As packets where rays run alike, else interleaved. `careful(i)` traces a ray that is not
+    /// ordinary, take(i, hit) gets what the others found.
+    template <bool AnyHit, class Careful, class Take>
+    static void trace_stream(const WideView& tree, std::span<const Ray> rays, Careful&& careful,
                              Take&& take) {
-        if constexpr (has_packets) {
-            if (!tree.empty)
-                return PacketStream<Lanes>(rays, tree.reach)
-                    .for_each(
-                        [&](std::span<const std::uint32_t> indices,
-                            std::span<const Ray* const> part, RayPacket<Lanes>& packet) {
-                            PacketTraversal<V, Lanes, AnyHit> traversal(tree, part, packet);
-                            traversal.run();
-                            take(indices, traversal);
-                        },
-                        one);
+        if (tree.empty) {
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                careful(i);
+            return;
         }
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            one(i);
+        PacketStream<Packets>(rays, tree.reach)
+            .for_each(
+                [&]<class Lanes>(RayIndices indices, std::span<const Ray* const> part,
+                                 RayPacket<Lanes>& packet) {
+                    PacketTraversal<V, Lanes, AnyHit> traversal(tree, part, packet);
+                    traversal.run();
+                    for (std::size_t i = 0; i < indices.size(); ++i)
+                        take(indices[i], traversal.best(i));
+                },
+                [&](RayIndices indices) {
+                    interleave<AnyHit>(tree, rays, indices, careful, take);
+                });
+    }
+
+    template <bool AnyHit, class Careful, class Take>
+    static void interleave(const WideView& tree, std::span<const Ray> rays, RayIndices indices,
+                           Careful&& careful, Take&& take) {
+        std::size_t i = 0;
+        Interleaved<V, Test, AnyHit> many(tree);
+        many.run(
+            [&](std::uint32_t& index) -> const Ray* {
+                while (i < indices.size()) {
+                    index = indices[i++];
+                    if (WideRay::is_ordinary(rays[index], tree.reach)) [[likely]]
+                        return &rays[index];
+                    careful(index);
+                }
+                return nullptr;
+            },
+            [&](const auto& ray) { take(ray.index(), ray.best()); });
     }
 };
 

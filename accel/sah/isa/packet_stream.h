@@ -1,81 +1,132 @@
-/// \file  Sorts the rays of a stream into packets.
+/// \file  Splits a stream into packets of rays that run alike and rays that go by themselves.
 #pragma once
 
 #include "accel/sah/isa/ray_packet.h"
 
 #include <array>
+#include <utility>
 
 namespace plumb {
 namespace {
 
-/// Rays that follow each other are tried as a packet first. Those that do not run alike wait, by
-/// the signs and the largest axis of their directions, until a packet of them is full.
+/// For instruction sets without packets.
+struct NoPackets {
+    static constexpr std::size_t width = 0;
+};
+
+/// Numbers of rays of a stream.
+using RayIndices = std::span<const std::uint32_t>;
+
+/// Rays that follow each other are tried as a packet first. Of a stream where most of these run
+/// alike, the others are gathered by the signs and the largest axis of their directions, and tried
+/// again.
 template <class P> class PacketStream {
   public:
     PacketStream(std::span<const Ray> rays, float reach) : rays_(rays), reach_(reach) {}
 
-    /// Calls many(indices, rays, packet) for packets and one(index) for other rays.
-    template <class Many, class One> void for_each(Many&& many, One&& one) {
-        for (std::size_t begin = 0; begin < rays_.size(); begin += width) {
-            Group group;
-            for (std::size_t i = begin; i < std::min(begin + width, rays_.size()); ++i)
-                group.indices[group.size++] = static_cast<std::uint32_t>(i);
-            if (trace(group, many))
-                continue;
-            for (std::size_t i = begin; i < begin + group.size; ++i) {
-                Group& waiting = waiting_[kind_of(rays_[i])];
-                waiting.indices[waiting.size++] = static_cast<std::uint32_t>(i);
-                if (waiting.size == width)
-                    finish(waiting, many, one);
+    /// Calls many(indices, rays, packet) for packets and alone(indices) for other rays, hundreds at
+    /// a time where there are that many.
+    template <class Many, class Alone> void for_each(Many&& many, Alone&& alone) {
+        for (std::size_t begin = 0; begin < rays_.size(); begin += max_lone) {
+            const std::size_t end = std::min(begin + max_lone, rays_.size());
+            lone_count_ = 0;
+            for (std::size_t first = begin; first < end; first += group_size) {
+                Group group;
+                for (std::size_t i = first; i < std::min(first + group_size, end); ++i)
+                    group.indices[group.size++] = static_cast<std::uint32_t>(i);
+                if (!trace(group, many))
+                    leave_alone(group);
             }
+            if (few_kinds())
+                gather(many);
+            if (lone_count_ > 0)
+                alone(RayIndices(lone_, lone_count_));
         }
-        for (Group& waiting : waiting_)
-            finish(waiting, many, one);
     }
 
   private:
-    static constexpr std::size_t width = P::width;
+    static constexpr std::size_t group_size = P::width > 0 ? P::width : 16;
     /// Fewer rays are not worth a packet.
-    static constexpr std::size_t least = width / 4;
+    static constexpr std::size_t least = group_size / 4;
+    static constexpr std::size_t max_lone = 512;
+    /// Of so many rays that start everywhere nine and more kinds are likely.
+    static constexpr std::size_t sample_size = 16;
+    static constexpr int max_kinds = 6;
 
     struct Group {
         std::uint32_t size = 0;
-        std::uint32_t indices[width];
+        std::uint32_t indices[group_size];
     };
 
-    /// Signs and largest axis, as one number below 32.
-    static std::size_t kind_of(const Ray& ray) {
-        const Vec3 d = ray.direction, length = abs(d);
-        const std::size_t signs = (std::signbit(d.x) ? 1u : 0u) | (std::signbit(d.y) ? 2u : 0u) |
-                                  (std::signbit(d.z) ? 4u : 0u);
-        const bool x = length.x > length.y && length.x > length.z;
-        return signs | (x ? 0u : length.y > length.z ? 8u : 16u);
+    /// Signs and largest axis of a direction, as one number below 24.
+    std::size_t kind_of(std::uint32_t index) const {
+        const __m128 d = _mm_loadu_ps(&rays_[index].direction.x);
+        return static_cast<std::size_t>((_mm_movemask_ps(d) & 7) |
+                                        WideRay::largest_axis(absolute4(d)) << 3);
     }
 
     /// Whether the rays run alike and were traced.
     template <class Many> bool trace(const Group& group, Many&& many) {
-        if (group.size < least)
-            return false;
-        const Ray* part[width];
-        for (std::size_t i = 0; i < group.size; ++i)
-            part[i] = &rays_[group.indices[i]];
-        const std::span<const Ray* const> there(part, group.size);
-        RayPacket<P> packet(there, reach_);
-        if (packet.alike)
-            many(std::span<const std::uint32_t>(group.indices, group.size), there, packet);
-        return packet.alike;
+        if constexpr (P::width > 0) {
+            if (group.size < least || !may_run_alike(group))
+                return false;
+            const Ray* part[group_size];
+            for (std::size_t i = 0; i < group.size; ++i)
+                part[i] = &rays_[group.indices[i]];
+            const std::span<const Ray* const> there(part, group.size);
+            RayPacket<P> packet(there, reach_);
+            if (packet.alike)
+                many(RayIndices(group.indices, group.size), there, packet);
+            return packet.alike;
+        }
+        return false;
+    }
+    /// A glance at a few.
+    bool may_run_alike(const Group& group) const {
+        const std::size_t first = kind_of(group.indices[0]);
+        return kind_of(group.indices[group.size / 2]) == first &&
+               kind_of(group.indices[group.size - 1]) == first;
     }
 
-    template <class Many, class One> void finish(Group& group, Many&& many, One&& one) {
-        if (!trace(group, many))
-            for (std::size_t i = 0; i < group.size; ++i)
-                one(group.indices[i]);
-        group.size = 0;
+    /// Whether a sample of the lone rays has so few kinds that they are worth gathering.
+    bool few_kinds() const {
+        if (lone_count_ < sample_size)
+            return false;
+        std::uint32_t kinds = 0;
+        for (std::size_t i = 0; i < sample_size; ++i)
+            kinds |= 1u << kind_of(lone_[i * lone_count_ / sample_size]);
+        return std::popcount(kinds) <= max_kinds;
+    }
+    /// The lone rays by kind; those that run alike are traced.
+    template <class Many> void gather(Many&& many) {
+        std::array<Group, 24> waiting;
+        const std::size_t count = std::exchange(lone_count_, 0);
+        int patience = 2;
+        const auto finish = [&](Group& group) {
+            const bool traced = patience > 0 && trace(group, many);
+            patience += traced ? 1 : -1;
+            if (!traced)
+                leave_alone(group); // never more than were read
+            group.size = 0;
+        };
+        for (std::size_t i = 0; i < count; ++i) {
+            Group& group = waiting[kind_of(lone_[i])];
+            group.indices[group.size++] = lone_[i];
+            if (group.size == group_size)
+                finish(group);
+        }
+        for (Group& group : waiting)
+            finish(group);
+    }
+    void leave_alone(const Group& group) {
+        for (std::size_t i = 0; i < group.size; ++i)
+            lone_[lone_count_++] = group.indices[i];
     }
 
     std::span<const Ray> rays_;
     float reach_;
-    std::array<Group, 24> waiting_;
+    std::size_t lone_count_ = 0;
+    std::uint32_t lone_[max_lone];
 };
 
 } // namespace

@@ -75,15 +75,14 @@ template <class V, class P, bool AnyHit> class PacketTraversal {
         }
     }
 
-    [[nodiscard]] Hit hit(std::size_t ray) const { return best(ray).with_ids(tree_); }
-    [[nodiscard]] bool found(std::size_t ray) const { return number_[ray] != invalid_id; }
+    /// What a ray found; of AnyHit only whether its number is valid.
+    [[nodiscard]] NumberedHit best(std::size_t ray) const {
+        return {packet_.best_t[ray], u_[ray], v_[ray], number_[ray]};
+    }
 
   private:
     static constexpr unsigned all_rays = (1u << P::width) - 1;
 
-    NumberedHit best(std::size_t ray) const {
-        return {packet_.best_t[ray], u_[ray], v_[ray], number_[ray]};
-    }
     void find_farthest() { farthest_ = P::largest(P::load(packet_.best_t)); }
 
     void push_children(const WideNode& node) {

@@ -49,11 +49,7 @@ struct WideRay {
         _mm_store_ps(origin, o);
         _mm_store_ps(direction, d);
         negative = static_cast<unsigned>(_mm_movemask_ps(d)) & 7u;
-        // kz without branches: which of x > y, x > z, y > z hold, and a table of two bits each.
-        const int greater =
-            _mm_movemask_ps(_mm_cmpgt_ps(_mm_shuffle_ps(length, length, _MM_SHUFFLE(3, 1, 0, 0)),
-                                         _mm_shuffle_ps(length, length, _MM_SHUFFLE(3, 2, 2, 1))));
-        kz = 0x192a >> (2 * (greater & 7)) & 3;
+        kz = largest_axis(length);
         kx = 0b00'10'01 >> (2 * kz) & 3;
         ky = 0b01'00'10 >> (2 * kz) & 3;
         const __m128 largest = _mm_set1_ps(direction[kz]);
@@ -65,6 +61,15 @@ struct WideRay {
         tilted = (_mm_movemask_ps(_mm_cmpge_ps(length, smallest)) & 7) != 7;
         if (tilted) [[unlikely]]
             tilt(reach);
+    }
+
+    /// PreparedRay's kz without branches: which of x > y, x > z, y > z hold, and a table of two
+    /// bits each.
+    [[nodiscard]] static int largest_axis(__m128 length) {
+        const int greater =
+            _mm_movemask_ps(_mm_cmpgt_ps(_mm_shuffle_ps(length, length, _MM_SHUFFLE(3, 1, 0, 0)),
+                                         _mm_shuffle_ps(length, length, _MM_SHUFFLE(3, 2, 2, 1))));
+        return 0x192a >> (2 * (greater & 7)) & 3;
     }
 
     /// Whether the fused test may be used. Implies is_valid.

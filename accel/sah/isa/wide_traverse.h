@@ -5,6 +5,7 @@
 /// for any tree, any order and any instruction set.
 #pragma once
 
+#include "accel/intersector.h"
 #include "accel/sah/isa/enter_children.h"
 #include "accel/sah/isa/triangle_lanes.h"
 #include "accel/sah/numbered_hit.h"
