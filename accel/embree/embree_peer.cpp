@@ -119,16 +119,13 @@ std::uint64_t query(embree::Query& q, RTCScene scene, const AnyHitPacket& prepar
 }
 
 template <class Keep>
-std::uint64_t trace_all(RTCScene scene, const Prepared& prepared, Keep&& keep) {
+std::uint64_t trace_all(RTCScene scene, const Prepared& prepared, bool coherent, Keep&& keep) {
     const FlushDenormals flush;
     return std::visit(
         [&](const auto& queries) {
-            using Element = typename std::decay_t<decltype(queries)>::value_type;
-            constexpr bool coherent =
-                std::is_same_v<Element, Packet> || std::is_same_v<Element, AnyHitPacket>;
             embree::Query q(coherent);
             std::uint64_t sum = 0;
-            for (const Element& element : queries)
+            for (const auto& element : queries)
                 sum += query(q, scene, element, keep);
             return sum;
         },
@@ -140,12 +137,12 @@ std::uint64_t trace_all(RTCScene scene, const Prepared& prepared, Keep&& keep) {
 struct EmbreeRays::Parts {
     Prepared prepared;
     std::size_t size;
-    bool any_hit;
+    bool any_hit, coherent;
 };
 
-EmbreeRays::EmbreeRays(std::span<const Ray> rays, bool any_hit, int packet)
-    : parts_(std::make_unique<Parts>(Parts{prepare(rays, any_hit, packet), rays.size(), any_hit})) {
-}
+EmbreeRays::EmbreeRays(std::span<const Ray> rays, bool any_hit, int packet, bool coherent)
+    : parts_(std::make_unique<Parts>(
+          Parts{prepare(rays, any_hit, packet), rays.size(), any_hit, packet > 1 && coherent})) {}
 EmbreeRays::~EmbreeRays() = default;
 EmbreeRays::EmbreeRays(EmbreeRays&&) noexcept = default;
 EmbreeRays& EmbreeRays::operator=(EmbreeRays&&) noexcept = default;
@@ -154,13 +151,13 @@ bool EmbreeRays::any_hit() const { return parts_->any_hit; }
 
 std::uint64_t EmbreePeer::trace(const EmbreeRays& rays) const {
     return trace_all(static_cast<RTCScene>(scene_.handle()), rays.parts_->prepared,
-                     [](const auto&, unsigned) {});
+                     rays.parts_->coherent, [](const auto&, unsigned) {});
 }
 
 std::uint64_t EmbreePeer::trace(const EmbreeRays& rays, std::span<Hit> hits) const {
     std::size_t next = 0;
     return trace_all(static_cast<RTCScene>(scene_.handle()), rays.parts_->prepared,
-                     [&](const auto& hit, unsigned count) {
+                     rays.parts_->coherent, [&](const auto& hit, unsigned count) {
                          for (unsigned lane = 0; lane < count && next < hits.size(); ++lane)
                              hits[next++] = hit(lane);
                      });

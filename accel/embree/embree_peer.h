@@ -10,8 +10,9 @@ namespace plumb {
 class EmbreeRays {
   public:
     /// \param rays    all valid
-    /// \param packet  1, or 16: 16 neighbours become one packet
-    EmbreeRays(std::span<const Ray> rays, bool any_hit, int packet);
+    /// \param packet    1, or 16: 16 neighbours become one packet
+    /// \param coherent  whether packets get the coherent flag
+    EmbreeRays(std::span<const Ray> rays, bool any_hit, int packet, bool coherent = true);
     ~EmbreeRays();
     EmbreeRays(EmbreeRays&&) noexcept;
     EmbreeRays& operator=(EmbreeRays&&) noexcept;

@@ -217,8 +217,6 @@ TEST(BenchStructure, EveryWayOfTracingGivesTheAnswersItWasCheckedWith) {
         Structure structure(config.structure, {{&view, 1}, {}});
         structure.build();
         for (const RaySet& rays : sets) {
-            if (config.wide && !rays.coherent())
-                continue;
             const auto prepared = structure.prepare(rays, config.wide);
             std::vector<Hit> hits(rays.rays.size());
             const std::uint64_t checksum = structure.answers(prepared, hits);

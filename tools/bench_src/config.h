@@ -26,7 +26,7 @@ struct StructureConfig {
 struct Config {
     std::string name; ///< the structure's, followed by /stream or /packet16 where `wide`
     StructureConfig structure;
-    bool wide = false;       ///< closest(span), Embree's packets: on coherent rays only
+    bool wide = false;       ///< closest(span), or Embree's packets
     bool by_default = false; ///< runs where nothing is selected
 
     [[nodiscard]] bool is_embree() const { return structure.accel == AccelKind::embree; }

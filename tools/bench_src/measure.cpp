@@ -146,8 +146,7 @@ MeshResult measure(const BenchMesh& mesh, const MeasureOptions& options, Progres
         for (const RaySet& rays : ray_sets) {
             std::vector<Contestant> contestants;
             for (const Config& config : options.configs)
-                if (rays.coherent() || !config.wide || config.structure.accel == AccelKind::sah)
-                    contestants.push_back({&config, &structures.at(config.structure.name), {}, 0});
+                contestants.push_back({&config, &structures.at(config.structure.name), {}, 0});
             if (rays.kind != kind || rays.rays.empty() || contestants.empty())
                 continue;
             progress.stage(

@@ -22,7 +22,7 @@ struct RaySet {
 
     /// Traced by occluded(); the others by closest().
     [[nodiscard]] bool any_hit() const { return kind == RayKind::shadow; }
-    /// Neighbours run alike: packets and streams are timed too.
+    /// Neighbours run alike: Embree's packets get the coherent flag.
     [[nodiscard]] bool coherent() const {
         return kind == RayKind::primary || kind == RayKind::shadow;
     }

@@ -105,7 +105,7 @@ TraversalCounts Structure::count(const RaySet& rays) const {
 Structure::Prepared Structure::prepare(const RaySet& rays, bool wide) const {
     Prepared prepared{&rays, wide, std::nullopt};
     if (embree_)
-        prepared.embree.emplace(rays.rays, rays.any_hit(), wide ? 16 : 1);
+        prepared.embree.emplace(rays.rays, rays.any_hit(), wide ? 16 : 1, rays.coherent());
     return prepared;
 }
 
