@@ -13,6 +13,11 @@ template <class V, TriangleTest Test, bool AnyHit> class alignas(64) Interleaved
     InterleavedRay(const WideView& tree, const Ray& ray, std::uint32_t index)
         : wide_(ray, tree.reach), best_(ray.tmax), index_(index) {
         stack_[0] = stack_entry(done, 0);
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            const int negative = static_cast<int>(wide_.negative >> axis & 1u);
+            near_[axis] = wide_width * negative;
+            far_[axis] = wide_width * (1 - negative);
+        }
     }
 
     [[nodiscard]] std::uint32_t index() const { return index_; }
@@ -25,12 +30,12 @@ template <class V, TriangleTest Test, bool AnyHit> class alignas(64) Interleaved
     [[gnu::always_inline]] void visit_node(const WideView& tree) {
         const auto& node = tree.at<WideNode>(current_);
         const auto enter = [&](std::size_t axis) {
-            return V::multiply_add(V::load(node.planes[axis][wide_.negative >> axis & 1u]),
+            return V::multiply_add(V::load(node.planes[axis][0] + near_[axis]),
                                    V::broadcast(wide_.near_inverse[axis]),
                                    V::broadcast(wide_.near_addend[axis]));
         };
         const auto leave = [&](std::size_t axis) {
-            return V::multiply_add(V::load(node.planes[axis][~wide_.negative >> axis & 1u]),
+            return V::multiply_add(V::load(node.planes[axis][0] + far_[axis]),
                                    V::broadcast(wide_.far_inverse[axis]),
                                    V::broadcast(wide_.far_addend[axis]));
         };
@@ -93,6 +98,7 @@ template <class V, TriangleTest Test, bool AnyHit> class alignas(64) Interleaved
     }
 
     WideRay wide_;
+    std::int32_t near_[3], far_[3]; ///< where a node keeps these planes, from its axis on
     NumberedHit best_;
     WideRef current_{};
     std::uint32_t index_;

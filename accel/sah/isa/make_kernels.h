@@ -106,9 +106,29 @@ template <class V, class P, TriangleTest Test> struct Kernels {
                 });
     }
 
+    /// What an ordinary ray finds; of AnyHit only whether its number is valid.
+    template <bool AnyHit>
+    [[gnu::always_inline]] static NumberedHit find_one(const WideView& tree, const Ray& ray) {
+        const WideRay wide(ray, tree.reach);
+        NumberedHit best(ray.tmax);
+        if constexpr (!AnyHit)
+            find_closest<V, Test, Guess::branch>(tree, wide, WideRef{}, best, NoCounter{});
+        else if (find_any<V, Test, Guess::branch>(tree, wide, WideRef{}, NoCounter{}))
+            best.number = 0;
+        return best;
+    }
+
     template <bool AnyHit, class Careful, class Take>
     static void interleave(const WideView& tree, std::span<const Ray> rays, RayIndices indices,
                            Careful&& careful, Take&& take) {
+        if (tree.tiny) { // in the cache, and guessed well
+            for (const std::uint32_t i : indices)
+                if (WideRay::is_ordinary(rays[i], tree.reach)) [[likely]]
+                    take(i, find_one<AnyHit>(tree, rays[i]));
+                else
+                    careful(i);
+            return;
+        }
         std::size_t i = 0;
         Interleaved<V, Test, AnyHit> many(tree);
         many.run(

@@ -17,9 +17,9 @@ struct NoPackets {
 /// Numbers of rays of a stream.
 using RayIndices = std::span<const std::uint32_t>;
 
-/// Rays that follow each other are tried as a packet first. Of a stream where most of these run
-/// alike, the others are gathered by the signs and the largest axis of their directions, and tried
-/// again.
+/// Where a sample of the rays has few kinds (signs and largest axis of the direction), or
+/// neighbours of the same, rays that follow each other are tried as a packet; those that do not run
+/// alike are gathered by kind and tried again.
 template <class P> class PacketStream {
   public:
     PacketStream(std::span<const Ray> rays, float reach) : rays_(rays), reach_(reach) {}
@@ -30,15 +30,14 @@ template <class P> class PacketStream {
         for (std::size_t begin = 0; begin < rays_.size(); begin += max_lone) {
             const std::size_t end = std::min(begin + max_lone, rays_.size());
             lone_count_ = 0;
-            for (std::size_t first = begin; first < end; first += group_size) {
-                Group group;
-                for (std::size_t i = first; i < std::min(first + group_size, end); ++i)
-                    group.indices[group.size++] = static_cast<std::uint32_t>(i);
-                if (!trace(group, many))
-                    leave_alone(group);
+            if (P::width > 0 && may_run_alike(begin, end)) {
+                trace_neighbours(begin, end, many);
+                if (lone_count_ >= sample_size)
+                    gather(many);
+            } else {
+                for (std::size_t i = begin; i < end; ++i)
+                    lone_[lone_count_++] = static_cast<std::uint32_t>(i);
             }
-            if (few_kinds())
-                gather(many);
             if (lone_count_ > 0)
                 alone(RayIndices(lone_, lone_count_));
         }
@@ -88,14 +87,28 @@ template <class P> class PacketStream {
                kind_of(group.indices[group.size - 1]) == first;
     }
 
-    /// Whether a sample of the lone rays has so few kinds that they are worth gathering.
-    bool few_kinds() const {
-        if (lone_count_ < sample_size)
-            return false;
+    /// Whether packets are worth trying: a sample of the rays has few kinds, or neighbours have the
+    /// same.
+    bool may_run_alike(std::size_t begin, std::size_t end) const {
         std::uint32_t kinds = 0;
-        for (std::size_t i = 0; i < sample_size; ++i)
-            kinds |= 1u << kind_of(lone_[i * lone_count_ / sample_size]);
-        return std::popcount(kinds) <= max_kinds;
+        std::size_t same = 0;
+        for (std::size_t i = 0; i < sample_size; ++i) {
+            const std::size_t at = begin + i * (end - begin) / sample_size;
+            const std::size_t kind = kind_of(static_cast<std::uint32_t>(at));
+            kinds |= 1u << kind;
+            same +=
+                kind == kind_of(static_cast<std::uint32_t>(std::min(at + 1, end - 1))) ? 1u : 0u;
+        }
+        return std::popcount(kinds) <= max_kinds || 2 * same > sample_size;
+    }
+    template <class Many> void trace_neighbours(std::size_t begin, std::size_t end, Many&& many) {
+        for (std::size_t first = begin; first < end; first += group_size) {
+            Group group;
+            for (std::size_t i = first; i < std::min(first + group_size, end); ++i)
+                group.indices[group.size++] = static_cast<std::uint32_t>(i);
+            if (!trace(group, many))
+                leave_alone(group);
+        }
     }
     /// The lone rays by kind; those that run alike are traced.
     template <class Many> void gather(Many&& many) {
