@@ -47,8 +47,9 @@ template <class V> void expect_children_in_order(int rounds) {
                 // Not behind the box, or a tie would be lost; before it by a rounding error.
                 EXPECT_LE(near_of(stack[i]), near[lane]);
                 EXPECT_GE(near_of(stack[i]), near[lane] * (1 - 0x1p-20f));
-                if (i > 1)
+                if (i > 1) {
                     EXPECT_GE(near_of(stack[i - 1]), near_of(stack[i]));
+                }
             }
             EXPECT_EQ(seen, mask);
         }

@@ -3,6 +3,8 @@
 
 #include "accel/sah/isa/wide_traverse.h"
 
+#include <type_traits>
+
 namespace plumb {
 namespace {
 
@@ -12,7 +14,7 @@ template <class V, TriangleTest Test, bool AnyHit> class alignas(64) Interleaved
     /// An ordinary ray, before a tree that is not empty. `index`: its number in the stream.
     InterleavedRay(const WideView& tree, const Ray& ray, std::uint32_t index)
         : wide_(ray, tree.reach), best_(ray.tmax), index_(index) {
-        stack_[0] = stack_entry(done, 0);
+        stack_[0] = done.bits; // entered at 0
         for (unsigned axis = 0; axis < 3; ++axis) {
             const int negative = static_cast<int>(wide_.negative >> axis & 1u);
             near_[axis] = wide_width * negative;
@@ -43,8 +45,14 @@ template <class V, TriangleTest Test, bool AnyHit> class alignas(64) Interleaved
             V::max(V::max(enter(0), enter(1)), V::max(enter(2), V::broadcast(wide_.tmin)));
         const auto far =
             V::min(V::min(leave(0), leave(1)), V::min(leave(2), V::broadcast(best_.t)));
-        size_ +=
-            V::push_sorted(stack_ + size_, near, V::not_greater(near, far), &node.child[0].bits);
+        const auto entered = V::not_greater(near, far);
+        if constexpr (AnyHit) {
+            const unsigned mask = V::bits(entered);
+            V::store_packed(stack_ + size_, &node.child[0].bits, mask);
+            size_ += std::popcount(mask);
+        } else {
+            size_ += V::push_sorted(stack_ + size_, near, entered, &node.child[0].bits);
+        }
         pop(tree);
     }
     [[gnu::always_inline]] void visit_triangle_block(const WideView& tree) {
@@ -65,6 +73,9 @@ template <class V, TriangleTest Test, bool AnyHit> class alignas(64) Interleaved
     }
 
   private:
+    /// Any hit needs no order, and is found sooner without one among boxes that overlap.
+    using Entry = std::conditional_t<AnyHit, std::uint32_t, StackEntry>;
+
     /// At the bottom of the stack. The root lies there, so no leaf does.
     static constexpr WideRef done{WideRef::leaf_flag | WideRef::sphere_flag};
 
@@ -76,9 +87,10 @@ template <class V, TriangleTest Test, bool AnyHit> class alignas(64) Interleaved
     /// to be asked, which is a jump that the processor would guess wrong.
     [[gnu::always_inline]] void end_leaf(const WideView& tree, float limit) {
         if (AnyHit && best_.number != invalid_id)
-            size_ = 1;
-        else if (best_.t < limit)
-            drop_farther();
+            size_ = 1; // done
+        if constexpr (!AnyHit)
+            if (best_.t < limit)
+                drop_farther();
         pop(tree);
     }
     void drop_farther() {
@@ -91,7 +103,7 @@ template <class V, TriangleTest Test, bool AnyHit> class alignas(64) Interleaved
         size_ = kept;
     }
     [[gnu::always_inline]] void pop(const WideView& tree) {
-        current_ = ref_of(stack_[--size_]);
+        current_ = WideRef{static_cast<std::uint32_t>(stack_[--size_])};
         const char* lines = reinterpret_cast<const char*>(&tree.at<WideTriangles>(current_));
         for (std::size_t i = 0; i < sizeof(WideTriangles); i += WideView::unit_bytes)
             _mm_prefetch(lines + i, _MM_HINT_T0); // a node is shorter by a line
@@ -103,7 +115,7 @@ template <class V, TriangleTest Test, bool AnyHit> class alignas(64) Interleaved
     WideRef current_{};
     std::uint32_t index_;
     int size_ = 1;
-    StackEntry stack_[1 + wide_max_stack + wide_width]; ///< push_sorted writes beyond its end
+    Entry stack_[1 + wide_max_stack + wide_width]; ///< pushing writes beyond the end
 };
 
 } // namespace
