@@ -3,6 +3,9 @@ import numpy as np
 
 from chart_src import statistics as st
 
+# Where a curve bends: the share of the squared error in the worst 0.1 % of the pixels from which on that is put down
+# to fireflies. (Where noise is normal they have 1 %; a quarter where a bright light's edge crosses a pixel.)
+FIREFLIES = 0.5
 MEASURES = {"mse": "mean squared error", "relmse": "relative MSE", "flip": "FLIP"}
 
 
@@ -42,7 +45,7 @@ def summary(runs):
                                            "front": [m for m in MEASURES if (name, n) in front[m]]}
                                           for n, s, by in curve],
                "efficiency": st.geometric_interval([1 / (m * curve[-1][1]) for m in by_seed[:, -1]]),
-               "slope": None, "bend": None, "factor": None}
+               "slope": None, "bend": None, "factor": None, "outlier_share": outlier_share(runs, name, curve[-1][0])}
         if len(spp) > 1:
             row["slope"] = st.slope_interval(spp, by_seed)
             row["bend"] = st.bend(spp, by_seed)
@@ -50,6 +53,16 @@ def summary(runs):
             row["factor"] = factor(curves["default"], curve)
         out.append(row)
     return out
+
+
+def outlier_share(runs, method, spp):
+    """The median over the seeds."""
+    return float(np.median([r["outlier_share"] for r in runs if (r["method"], r["spp"]) == (method, spp)]))
+
+
+def cause(row):
+    """Why a curve bends: what more samples should have averaged out sits in a few pixels, or it does not."""
+    return "fireflies" if row["outlier_share"] >= FIREFLIES else "bias"
 
 
 def factor(default, other):
@@ -82,5 +95,5 @@ def text(result):
         if r["factor"]:
             far = " (extrapolated)" if r["factor"]["extrapolated"] else ""
             line += f"  {r['factor']['times']:.3g} x default's time{far}"
-        lines.append(line + (f"  bends at {r['bend'][0]} spp" if r["bend"] else ""))
+        lines.append(line + (f"  bends at {r['bend'][0]} spp ({cause(r)})" if r["bend"] else ""))
     return "\n".join(lines)
