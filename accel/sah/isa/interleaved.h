@@ -10,6 +10,7 @@
 
 #include "accel/sah/isa/interleaved_ray.h"
 
+#include <memory>
 #include <new>
 #include <utility>
 
@@ -19,16 +20,22 @@ namespace {
 /// Rays on their way: enough to hide memory, few enough for the first-level cache.
 inline constexpr std::size_t interleaved_rays = 24;
 
-template <class V, TriangleTest Test, bool AnyHit> class Interleaved {
+/// About 100 kB, too much for small stacks: of_this_thread().
+template <class V, TriangleTest Test, bool AnyHit> class alignas(4096) Interleaved {
   public:
     using Item = InterleavedRay<V, Test, AnyHit>;
 
-    /// A tree that is not empty.
-    explicit Interleaved(const WideView& tree) : tree_(tree) {}
+    /// Made on first use; throws std::bad_alloc.
+    static Interleaved& of_this_thread() {
+        thread_local const std::unique_ptr<Interleaved> one(new Interleaved);
+        return *one;
+    }
 
-    /// next(index) returns the next ray, which has to be ordinary, and its index, or null where
-    /// there are no more; take(item) gets those that are done, in any order.
-    template <class Next, class Take> void run(Next&& next, Take&& take) {
+    /// For a tree that is not empty. next(index) returns the next ray, which has to be ordinary,
+    /// and its index, or null where there are no more; take(item) gets those that are done, in any
+    /// order.
+    template <class Next, class Take> void run(const WideView& tree, Next&& next, Take&& take) {
+        tree_ = tree;
         for (Memory& place : memory_)
             if (!start(place, next))
                 break;
@@ -52,6 +59,8 @@ template <class V, TriangleTest Test, bool AnyHit> class Interleaved {
     }
 
   private:
+    Interleaved() = default;
+
     struct alignas(64) Memory {
         std::byte bytes[sizeof(Item)];
     };
@@ -109,7 +118,7 @@ template <class V, TriangleTest Test, bool AnyHit> class Interleaved {
         sizes.others += other;
     }
 
-    const WideView tree_;
+    WideView tree_;
     List nodes_, triangles_, others_;
     Memory memory_[interleaved_rays];
 };

@@ -130,8 +130,8 @@ template <class V, class P, TriangleTest Test> struct Kernels {
             return;
         }
         std::size_t i = 0;
-        Interleaved<V, Test, AnyHit> many(tree);
-        many.run(
+        Interleaved<V, Test, AnyHit>::of_this_thread().run(
+            tree,
             [&](std::uint32_t& index) -> const Ray* {
                 while (i < indices.size()) {
                     index = indices[i++];
