@@ -142,9 +142,13 @@ void require_right(const GeometryView& view, const Ray& ray, const Hit& hit) {
 }
 
 /// Whether a ray leaves the range of float inside Embree (its README): directions and determinants
-/// below 1e-18, by which it does not divide, determinants above 3e38, distances and t below 1e-30.
+/// or a component of them below 1e-18, by which it does not divide (boxes are missed that begin as
+/// near), determinants above 3e38, distances and t below 1e-30.
 bool is_beyond_embree(const GeometryView& view, const Ray& ray, const Hit& hit) {
     const auto speed = static_cast<double>(max_component(abs(ray.direction)));
+    for (int axis = 0; axis < 3; ++axis)
+        if (const float c = std::fabs(ray.direction[axis]); c > 0 && c < 1e-18f)
+            return true;
     double reach = 0;
     for (const MeshView& mesh : view.meshes)
         for (const Vec3& p : mesh.positions)
