@@ -9,7 +9,7 @@ namespace plumb {
 /// Rays in Embree's own layout, aligned, made once outside all timing.
 class EmbreeRays {
   public:
-    /// \param rays    all valid
+    /// \param rays      all valid
     /// \param packet    1, or 16: 16 neighbours become one packet
     /// \param coherent  whether packets get the coherent flag
     EmbreeRays(std::span<const Ray> rays, bool any_hit, int packet, bool coherent = true);

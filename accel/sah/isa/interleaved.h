@@ -21,7 +21,7 @@ namespace {
 inline constexpr std::size_t interleaved_rays = 24;
 
 /// About 100 kB, too much for small stacks: of_this_thread().
-template <class V, TriangleTest Test, bool AnyHit> class alignas(4096) Interleaved {
+template <class V, TriangleTest Test, bool AnyHit> class Interleaved {
   public:
     using Item = InterleavedRay<V, Test, AnyHit>;
 
@@ -36,6 +36,7 @@ template <class V, TriangleTest Test, bool AnyHit> class alignas(4096) Interleav
     /// order.
     template <class Next, class Take> void run(const WideView& tree, Next&& next, Take&& take) {
         tree_ = tree;
+        set({}); // an exception may have left rays here
         for (Memory& place : memory_)
             if (!start(place, next))
                 break;
@@ -70,7 +71,7 @@ template <class V, TriangleTest Test, bool AnyHit> class alignas(4096) Interleav
     };
 
     struct Sizes {
-        std::size_t nodes, triangles, others;
+        std::size_t nodes = 0, triangles = 0, others = 0;
     };
 
     Sizes sizes() const { return {nodes_.size, triangles_.size, others_.size}; }

@@ -36,9 +36,11 @@ template <class V, class P, TriangleTest Test> struct Kernels {
             return closest_careful(tree, ray, Test);
         if (tree.empty)
             return {};
-        return resembles_last(tree, ray)
-                   ? closest_ordinary<V, Test, Guess::branch>(tree, ray, NoCounter{})
-                   : closest_ordinary<V, Test, Guess::select>(tree, ray, NoCounter{});
+        const NumberedHit best =
+            resembles_last(tree, ray)
+                ? closest_ordinary<V, Test, Guess::branch>(tree, ray, NoCounter{})
+                : closest_ordinary<V, Test, Guess::select>(tree, ray, NoCounter{});
+        return best.with_ids(tree);
     }
     static bool occluded(const WideView& tree, const Ray& ray) {
         if (!WideRay::is_ordinary(ray, tree.reach)) [[unlikely]]
@@ -82,8 +84,8 @@ template <class V, class P, TriangleTest Test> struct Kernels {
   private:
     using Packets = std::conditional_t<Test == TriangleTest::watertight, P, NoPackets>;
 
-    /// As packets where rays run alike, else interleaved. `careful(i)` traces a ray that is not
-    /// ordinary, take(i, hit) gets what the others found.
+    /// As packets where rays run alike, else interleaved or, in tiny trees, one by one.
+    /// `careful(i)` traces a ray that is not ordinary, take(i, hit) gets what the others found.
     template <bool AnyHit, class Careful, class Take>
     static void trace_stream(const WideView& tree, std::span<const Ray> rays, Careful&& careful,
                              Take&& take) {
@@ -102,25 +104,23 @@ template <class V, class P, TriangleTest Test> struct Kernels {
                         take(indices[i], traversal.best(i));
                 },
                 [&](RayIndices indices) {
-                    interleave<AnyHit>(tree, rays, indices, careful, take);
+                    trace_alone<AnyHit>(tree, rays, indices, careful, take);
                 });
     }
 
     /// What an ordinary ray finds; of AnyHit only whether its number is valid.
-    template <bool AnyHit>
-    [[gnu::always_inline]] static NumberedHit find_one(const WideView& tree, const Ray& ray) {
-        const WideRay wide(ray, tree.reach);
-        NumberedHit best(ray.tmax);
+    template <bool AnyHit> static NumberedHit find_one(const WideView& tree, const Ray& ray) {
         if constexpr (!AnyHit)
-            find_closest<V, Test, Guess::branch>(tree, wide, WideRef{}, best, NoCounter{});
-        else if (find_any<V, Test, Guess::branch>(tree, wide, WideRef{}, NoCounter{}))
+            return closest_ordinary<V, Test, Guess::branch>(tree, ray, NoCounter{});
+        NumberedHit best(ray.tmax);
+        if (occluded_ordinary<V, Test, Guess::branch>(tree, ray, NoCounter{}))
             best.number = 0;
         return best;
     }
 
     template <bool AnyHit, class Careful, class Take>
-    static void interleave(const WideView& tree, std::span<const Ray> rays, RayIndices indices,
-                           Careful&& careful, Take&& take) {
+    static void trace_alone(const WideView& tree, std::span<const Ray> rays, RayIndices indices,
+                            Careful&& careful, Take&& take) {
         if (tree.tiny) { // in the cache, and guessed well
             for (const std::uint32_t i : indices)
                 if (WideRay::is_ordinary(rays[i], tree.reach)) [[likely]]

@@ -67,7 +67,7 @@ template <class P> class PacketStream {
     /// Whether the rays run alike and were traced.
     template <class Many> bool trace(const Group& group, Many&& many) {
         if constexpr (P::width > 0) {
-            if (group.size < least || !may_run_alike(group))
+            if (group.size < least || !look_alike(group))
                 return false;
             const Ray* part[group_size];
             for (std::size_t i = 0; i < group.size; ++i)
@@ -81,7 +81,7 @@ template <class P> class PacketStream {
         return false;
     }
     /// A glance at a few.
-    bool may_run_alike(const Group& group) const {
+    bool look_alike(const Group& group) const {
         const std::size_t first = kind_of(group.indices[0]);
         return kind_of(group.indices[group.size / 2]) == first &&
                kind_of(group.indices[group.size - 1]) == first;

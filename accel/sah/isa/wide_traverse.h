@@ -165,11 +165,11 @@ inline bool find_any(const WideView& tree, const WideRay& wide, WideRef current,
 
 /// For rays that are ordinary (WideRay::is_ordinary) and trees that are not empty.
 template <class V, TriangleTest Test, Guess G, class Counter>
-Hit closest_ordinary(const WideView& tree, const Ray& ray, Counter count) {
+NumberedHit closest_ordinary(const WideView& tree, const Ray& ray, Counter count) {
     const WideRay wide(ray, tree.reach);
     NumberedHit best(ray.tmax);
     find_closest<V, Test, G>(tree, wide, WideRef{}, best, count);
-    return best.with_ids(tree);
+    return best;
 }
 
 template <class V, TriangleTest Test, Guess G, class Counter>
