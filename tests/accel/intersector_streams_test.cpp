@@ -268,12 +268,12 @@ TEST_P(IntersectorStreams, AtTheLimitsOfPacketsAnswerAsTheirRaysDo) {
         for (int i = 0; i < 16; ++i) {
             Ray ray{eye + 1e-3f * random.point(-1, 1), 0, d + 1e-3f * random.point(-1, 1),
                     infinity};
-            if (block % 4 == 0) // equal lengths, or one float apart
-                ray.direction[other] =
-                    std::copysign(i % 3 == 0 ? std::fabs(ray.direction[axis])
-                                             : std::nextafter(std::fabs(ray.direction[axis]),
-                                                              i % 3 == 1 ? 0.0f : 2.0f),
-                                  d[other]);
+            if (block % 4 == 0) { // equal lengths, or one float apart; half never above
+                const float longest = std::fabs(ray.direction[axis]);
+                const bool above = i % 3 == 2 && block % 8 == 0;
+                ray.direction[other] = std::copysign(
+                    i % 3 == 1 ? longest : std::nextafter(longest, above ? 2.0f : 0.0f), d[other]);
+            }
             if (block % 4 == 1)
                 ray.direction[axis] = std::copysign(
                     (i % 5 == 0 ? 0x1.8p-31f : 0x1.4p-30f) * length(ray.direction), d[axis]);

@@ -22,10 +22,10 @@ struct Split {
             return indices.size();
         };
         PacketStream<PacketLanes>(rays, 1).for_each(
-            [&](RayIndices indices, std::span<const Ray* const> part, const auto&) {
-                in_packets += see(indices);
-                for (std::size_t i = 0; i < indices.size(); ++i)
-                    EXPECT_EQ(part[i], &rays[indices[i]]);
+            [&](const PacketRays& part, const auto&) {
+                in_packets += see(part.indices);
+                for (std::size_t i = 0; i < part.indices.size(); ++i)
+                    EXPECT_EQ(&part[i], &rays[part.indices[i]]);
             },
             [&](RayIndices indices) { alone += see(indices); });
         std::sort(seen.begin(), seen.end());

@@ -27,25 +27,28 @@ inline float near_of(StackEntry entry) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32));
 }
 
-/// The child in `lane`. With Guess::branch a jump for each lane, not a load at a computed address.
+/// at(lane), found by a jump for each lane, which the processor guesses.
+template <class At> [[gnu::always_inline]] inline auto by_jump(unsigned lane, At&& at) {
+    // The empty statements differ, or the compiler would merge the cases into a computed address.
+    switch (lane) {
+    case 0: asm volatile("# child 0"); return at(0);
+    case 1: asm volatile("# child 1"); return at(1);
+    case 2: asm volatile("# child 2"); return at(2);
+    case 3: asm volatile("# child 3"); return at(3);
+    case 4: asm volatile("# child 4"); return at(4);
+    case 5: asm volatile("# child 5"); return at(5);
+    case 6: asm volatile("# child 6"); return at(6);
+    case 7: asm volatile("# child 7"); return at(7);
+    default: __builtin_unreachable();
+    }
+}
+
+/// The child in `lane`.
 template <Guess G>
 [[gnu::always_inline]] inline WideRef child_at(const WideNode& node, unsigned lane) {
-    if constexpr (G == Guess::select) {
+    if constexpr (G == Guess::select)
         return node.child[lane];
-    } else {
-        // The empty statements differ, or the compiler would merge the cases into that load again.
-        switch (lane) {
-        case 0: asm volatile("# child 0"); return node.child[0];
-        case 1: asm volatile("# child 1"); return node.child[1];
-        case 2: asm volatile("# child 2"); return node.child[2];
-        case 3: asm volatile("# child 3"); return node.child[3];
-        case 4: asm volatile("# child 4"); return node.child[4];
-        case 5: asm volatile("# child 5"); return node.child[5];
-        case 6: asm volatile("# child 6"); return node.child[6];
-        case 7: asm volatile("# child 7"); return node.child[7];
-        default: __builtin_unreachable();
-        }
-    }
+    return by_jump(lane, [&node](unsigned i) { return node.child[i]; });
 }
 
 /// Fetches a child that will be visited later.

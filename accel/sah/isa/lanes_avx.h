@@ -120,11 +120,11 @@ struct Lanes {
     }
 };
 
-/// rows[j][i] = from[i][j]: eight floats from each of eight places.
-inline void transpose8(const float* const* from, __m256* rows) {
+/// rows[j][i] = from(i)[j]: eight floats from each of eight places.
+template <class From> inline void transpose8(From&& from, __m256 (&rows)[8]) {
     __m256 pair[8], four[8];
     for (int i = 0; i < 8; i += 2) {
-        const __m256 a = _mm256_loadu_ps(from[i]), b = _mm256_loadu_ps(from[i + 1]);
+        const __m256 a = _mm256_loadu_ps(from(i)), b = _mm256_loadu_ps(from(i + 1));
         pair[i] = _mm256_unpacklo_ps(a, b);
         pair[i + 1] = _mm256_unpackhi_ps(a, b);
     }
@@ -140,7 +140,7 @@ inline void transpose8(const float* const* from, __m256* rows) {
 }
 
 /// The least number of each of eight registers.
-inline __m256 smallest_of(const __m256 (&rows)[8]) {
+inline __m256 smallest_of(const __m256* rows) {
     const auto pair = [&](int i) {
         return _mm256_min_ps(_mm256_unpacklo_ps(rows[i], rows[i + 1]),
                              _mm256_unpackhi_ps(rows[i], rows[i + 1]));

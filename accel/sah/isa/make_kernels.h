@@ -96,12 +96,18 @@ template <class V, class P, TriangleTest Test> struct Kernels {
         }
         PacketStream<Packets>(rays, tree.reach)
             .for_each(
-                [&]<class Lanes>(RayIndices indices, std::span<const Ray* const> part,
-                                 RayPacket<Lanes>& packet) {
+                [&]<class Lanes>(const PacketRays& part, RayPacket<Lanes>& packet) {
                     PacketTraversal<V, Lanes, AnyHit> traversal(tree, part, packet);
                     traversal.run();
-                    for (std::size_t i = 0; i < indices.size(); ++i)
-                        take(indices[i], traversal.best(i));
+                    if constexpr (AnyHit) {
+                        const unsigned found = traversal.found();
+                        for (std::size_t i = 0; i < part.indices.size(); ++i)
+                            take(part.indices[i],
+                                 NumberedHit(0, 0, 0, (found >> i & 1u) - 1)); // 0 or invalid_id
+                    } else {
+                        for (std::size_t i = 0; i < part.indices.size(); ++i)
+                            take(part.indices[i], traversal.best(i));
+                    }
                 },
                 [&](RayIndices indices) {
                     trace_alone<AnyHit>(tree, rays, indices, careful, take);

@@ -11,8 +11,10 @@ struct PacketLanes {
     using Mask = unsigned; ///< a bit a lane
     static constexpr int width = 8;
 
-    /// rows[j] lane i = from[i][j].
-    static void transpose(const float* const* from, Floats* rows) { transpose8(from, rows); }
+    /// rows[j] lane i = from(i)[j].
+    template <class From> static void transpose(From&& from, Floats (&rows)[8]) {
+        transpose8(from, rows);
+    }
     static Floats load(const float* p) { return _mm256_load_ps(p); }
     static void store(float* p, Floats x) { _mm256_store_ps(p, x); }
     static Floats broadcast(float x) { return _mm256_set1_ps(x); }
@@ -24,6 +26,7 @@ struct PacketLanes {
     static Floats max(Floats a, Floats b) { return _mm256_max_ps(a, b); }
     static Floats negated(Floats x) { return _mm256_xor_ps(x, broadcast(-0.0f)); }
     static Floats absolute(Floats x) { return Lanes::absolute(x); }
+    static unsigned signs(Floats x) { return Lanes::bits(x); }
     /// The lanes whose sign bits differ.
     static Mask signs_differ(Floats a, Floats b) { return Lanes::bits(_mm256_xor_ps(a, b)); }
     // Comparisons are false where either is NaN.
@@ -41,9 +44,13 @@ struct PacketLanes {
     static float largest(Floats x) {
         return fold(x, [](auto a, auto b) { return _mm_max_ps(a, b); });
     }
-    /// to[i]: the least number of rows[i].
-    static void smallest(const Floats (&rows)[8], float (&to)[8]) {
-        _mm256_storeu_ps(to, smallest_of(rows));
+    /// to[i / 4] lane i % 4: the least number of rows[i].
+    static void smallest(const Floats (&rows)[16], __m128 (&to)[4]) {
+        for (int half = 0; half < 2; ++half) {
+            const Floats least = smallest_of(rows + 8 * half);
+            to[2 * half] = _mm256_castps256_ps128(least);
+            to[2 * half + 1] = _mm256_extractf128_ps(least, 1);
+        }
     }
 };
 

@@ -14,9 +14,6 @@ struct NoPackets {
     static constexpr std::size_t width = 0;
 };
 
-/// Numbers of rays of a stream.
-using RayIndices = std::span<const std::uint32_t>;
-
 /// Where a sample of the rays has few kinds (signs and largest axis of the direction), or
 /// neighbours of the same, rays that follow each other are tried as a packet; those that do not run
 /// alike are gathered by kind and tried again.
@@ -24,14 +21,16 @@ template <class P> class PacketStream {
   public:
     PacketStream(std::span<const Ray> rays, float reach) : rays_(rays), reach_(reach) {}
 
-    /// Calls many(indices, rays, packet) for packets and alone(indices) for other rays, hundreds at
+    /// Calls many(rays, packet) for packets and alone(indices) for other rays, hundreds at
     /// a time where there are that many.
     template <class Many, class Alone> void for_each(Many&& many, Alone&& alone) {
+        bool all_alike = false; // so far, so that nothing has to be sampled
         for (std::size_t begin = 0; begin < rays_.size(); begin += max_lone) {
             const std::size_t end = std::min(begin + max_lone, rays_.size());
             lone_count_ = 0;
-            if (P::width > 0 && may_run_alike(begin, end)) {
+            if (P::width > 0 && (all_alike || may_run_alike(begin, end))) {
                 trace_neighbours(begin, end, many);
+                all_alike = lone_count_ == 0;
                 if (lone_count_ >= sample_size)
                     gather(many);
             } else {
@@ -67,26 +66,16 @@ template <class P> class PacketStream {
     /// Whether the rays run alike and were traced.
     template <class Many> bool trace(const Group& group, Many&& many) {
         if constexpr (P::width > 0) {
-            if (group.size < least || !look_alike(group))
+            if (group.size < least)
                 return false;
-            const Ray* part[group_size];
-            for (std::size_t i = 0; i < group.size; ++i)
-                part[i] = &rays_[group.indices[i]];
-            const std::span<const Ray* const> there(part, group.size);
-            RayPacket<P> packet(there, reach_);
+            const PacketRays rays{rays_.data(), {group.indices, group.size}};
+            RayPacket<P> packet(rays, reach_);
             if (packet.alike)
-                many(RayIndices(group.indices, group.size), there, packet);
+                many(rays, packet);
             return packet.alike;
         }
         return false;
     }
-    /// A glance at a few.
-    bool look_alike(const Group& group) const {
-        const std::size_t first = kind_of(group.indices[0]);
-        return kind_of(group.indices[group.size / 2]) == first &&
-               kind_of(group.indices[group.size - 1]) == first;
-    }
-
     /// Whether packets are worth trying: a sample of the rays has few kinds, or neighbours have the
     /// same.
     bool may_run_alike(std::size_t begin, std::size_t end) const {
@@ -101,9 +90,16 @@ template <class P> class PacketStream {
         }
         return std::popcount(kinds) <= max_kinds || 2 * same > sample_size;
     }
+    /// The rays of a group: memory, not the arithmetic, would set the pace in small trees.
+    void prefetch(std::size_t first) const {
+        const char* lines = reinterpret_cast<const char*>(rays_.data()) + first * sizeof(Ray);
+        for (std::size_t i = 0; i < group_size * sizeof(Ray); i += 64)
+            _mm_prefetch(lines + i, _MM_HINT_T0); // beyond the end it does nothing
+    }
     template <class Many> void trace_neighbours(std::size_t begin, std::size_t end, Many&& many) {
         for (std::size_t first = begin; first < end; first += group_size) {
             Group group;
+            prefetch(first + 8 * group_size);
             for (std::size_t i = first; i < std::min(first + group_size, end); ++i)
                 group.indices[group.size++] = static_cast<std::uint32_t>(i);
             if (!trace(group, many))

@@ -2,10 +2,12 @@
 ///
 /// A node is tested against the hull of the packet (all eight children at once), a child's box
 /// against each ray (all rays at once) when the child's turn comes, so a box costs a packet little
-/// more than a ray. Where few rays are left in a box they go on one by one: S. Woop et al.,
-/// "Embree", SIGGRAPH 2014, calls that hybrid traversal; the hull is that of W. Reshetov, A.
-/// Soupikov, J. Hurley, "Multi-Level Ray Tracing Algorithm", SIGGRAPH 2005, as intervals. Same hits
-/// as ray by ray: the tests are conservative, the triangle test is the same.
+/// more than a ray. Coherent packets do what the one before did: the next child is found by jumps
+/// (Guess::branch), so that it is on its way before the boxes are tested. Where few rays are left
+/// in a box they go on one by one: S. Woop et al., "Embree", SIGGRAPH 2014, calls that hybrid
+/// traversal; the hull is that of W. Reshetov, A. Soupikov, J. Hurley, "Multi-Level Ray Tracing
+/// Algorithm", SIGGRAPH 2005, as intervals. Same hits as ray by ray: the tests are conservative,
+/// the triangle test is the same.
 #pragma once
 
 #include "accel/sah/isa/packet_triangles.h"
@@ -15,7 +17,7 @@ namespace plumb {
 namespace {
 
 /// Rays in a box from which on they are traced together.
-inline constexpr int packet_min_in_node = 3, packet_min_in_leaf = 4;
+inline constexpr int packet_min_in_node = 2, packet_min_in_leaf = 4;
 
 /// A child that waits: its key (see StackEntry), and its planes in the node above, of which the
 /// next are 8 floats on. Null for the root.
@@ -47,37 +49,49 @@ template <class P>
 /// One packet on its way. `AnyHit`: rays leave it at their first hit.
 template <class V, class P, bool AnyHit> class PacketTraversal {
   public:
-    PacketTraversal(const WideView& tree, std::span<const Ray* const> rays, RayPacket<P>& packet)
+    PacketTraversal(const WideView& tree, const PacketRays& rays, RayPacket<P>& packet)
         : tree_(tree), rays_(rays), packet_(packet), test_(PacketHull<P>(packet)) {
-        for (PrimitiveNumber& number : number_)
-            number = invalid_id;
+        P::store(number_, P::broadcast(std::bit_cast<float>(invalid_id)));
         find_farthest();
     }
 
     void run() {
-        stack_[0] = {stack_entry(WideRef{}, 0), nullptr};
-        size_ = 1;
-        while (size_ > 0) {
-            const PacketEntry entry = stack_[--size_];
-            if (near_of(entry.key) > farthest_)
-                continue;
+        PacketEntry entry{stack_entry(WideRef{}, 0), nullptr};
+        for (;;) {
             const unsigned active =
                 entry.planes != nullptr ? rays_in_box(packet_, entry.planes) : all_rays;
             const WideRef ref = ref_of(entry.key);
             const int count = std::popcount(active);
             if (count < (ref.is_leaf() ? packet_min_in_leaf : packet_min_in_node) ||
-                (ref.is_leaf() && ref.has_spheres()))
+                (ref.is_leaf() && ref.has_spheres())) {
                 go_on_alone(active, ref);
-            else if (ref.is_leaf())
+            } else if (ref.is_leaf()) {
                 visit(active, tree_.at<WideTriangles>(ref));
-            else
-                push_children(tree_.at<WideNode>(ref));
+            } else {
+                const auto& node = tree_.at<WideNode>(ref);
+                typename V::Floats near;
+                const unsigned mask = test_(node, V::broadcast(farthest_), near);
+                if (mask != 0) {
+                    entry = enter(node, mask, near);
+                    continue;
+                }
+            }
+            do {
+                if (size_ == 0)
+                    return;
+                entry = stack_[--size_];
+            } while (near_of(entry.key) > farthest_);
         }
     }
 
+    /// AnyHit: a bit for each ray that has a hit.
+    [[nodiscard]] unsigned found() const {
+        return all_rays & ~P::bits(P::not_greater(P::broadcast(0), P::load(packet_.best_t)));
+    }
     /// What a ray found; of AnyHit only whether its number is valid.
     [[nodiscard]] NumberedHit best(std::size_t ray) const {
-        return {packet_.best_t[ray], u_[ray], v_[ray], number_[ray]};
+        return {packet_.best_t[ray], u_[ray], v_[ray],
+                std::bit_cast<PrimitiveNumber>(number_[ray])};
     }
 
   private:
@@ -85,21 +99,51 @@ template <class V, class P, bool AnyHit> class PacketTraversal {
 
     void find_farthest() { farthest_ = P::largest(P::load(packet_.best_t)); }
 
-    void push_children(const WideNode& node) {
-        typename V::Floats near;
-        unsigned mask = test_(node, V::broadcast(farthest_), near);
+    /// Pushes all children in `mask` (at least one) but the nearest, farthest first, and returns
+    /// the nearest.
+    [[gnu::always_inline]] PacketEntry enter(const WideNode& node, unsigned mask,
+                                             typename V::Floats near) {
+        const auto take = [&] {
+            const auto lane = static_cast<unsigned>(std::countr_zero(mask));
+            mask &= mask - 1;
+            return lane;
+        };
+        const unsigned first = take();
+        if (mask == 0)
+            return jump_to(node, first);
         alignas(32) float distance[wide_width];
         V::store(distance, near);
-        const int base = size_;
-        for (; mask != 0; mask &= mask - 1) { // insertion, farthest first
-            const auto lane = static_cast<std::size_t>(std::countr_zero(mask));
-            const PacketEntry entry{stack_entry(node.child[lane], distance[lane]),
-                                    &node.planes[0][0][lane]};
-            int i = size_++;
-            for (; i > base && stack_[i - 1].key < entry.key; --i)
-                stack_[i] = stack_[i - 1];
-            stack_[i] = entry;
+        const auto entry = [&](unsigned lane) {
+            return PacketEntry{stack_entry(node.child[lane], distance[lane]),
+                               &node.planes[0][0][lane]};
+        };
+        const unsigned second = take();
+        if (mask == 0) {
+            if (distance[second] < distance[first]) {
+                stack_[size_++] = entry(first);
+                return jump_to(node, second);
+            }
+            stack_[size_++] = entry(second);
+            return jump_to(node, first);
         }
+        const int base = size_;
+        stack_[size_++] = entry(first);
+        for (unsigned lane = second;; lane = take()) { // insertion
+            const PacketEntry one = entry(lane);
+            int i = size_++;
+            for (; i > base && stack_[i - 1].key < one.key; --i)
+                stack_[i] = stack_[i - 1];
+            stack_[i] = one;
+            if (mask == 0)
+                break;
+        }
+        const PacketEntry nearest = stack_[--size_];
+        return jump_to(node, static_cast<unsigned>(nearest.planes - &node.planes[0][0][0]));
+    }
+    static PacketEntry jump_to(const WideNode& node, unsigned lane) {
+        return by_jump(lane, [&node](unsigned i) {
+            return PacketEntry{stack_entry(node.child[i], 0), &node.planes[0][0][i]};
+        });
     }
 
     void go_on_alone(unsigned active, WideRef ref) {
@@ -107,13 +151,26 @@ template <class V, class P, bool AnyHit> class PacketTraversal {
             const auto i = static_cast<std::size_t>(std::countr_zero(active));
             WideRay& ray = alone(i);
             if constexpr (AnyHit) {
-                if (find_any<V, TriangleTest::watertight, Guess::branch>(tree_, ray, ref,
-                                                                         NoCounter{}))
+                const bool found =
+                    ref.is_leaf() ? visit_leaf<V, TriangleTest::watertight>(
+                                        tree_, ref, ray, ray.tmax,
+                                        [](PrimitiveNumber, const PrimitiveHit&) { return true; })
+                                  : find_any<V, TriangleTest::watertight, Guess::branch>(
+                                        tree_, ray, ref, NoCounter{});
+                if (found)
                     take_out(i);
             } else {
                 NumberedHit closer = best(i);
-                find_closest<V, TriangleTest::watertight, Guess::branch>(tree_, ray, ref, closer,
-                                                                         NoCounter{});
+                if (ref.is_leaf())
+                    visit_leaf<V, TriangleTest::watertight>(
+                        tree_, ref, ray, closer.t,
+                        [&](PrimitiveNumber number, const PrimitiveHit& hit) {
+                            closer.keep_closer(hit, number);
+                            return false;
+                        });
+                else
+                    find_closest<V, TriangleTest::watertight, Guess::branch>(tree_, ray, ref,
+                                                                             closer, NoCounter{});
                 keep(i, closer);
             }
         }
@@ -142,7 +199,7 @@ template <class V, class P, bool AnyHit> class PacketTraversal {
     void visit_exactly(std::size_t i, const WideTriangles& block, std::size_t lane) {
         PrimitiveHit hit;
         if (!intersect_exactly<TriangleTest::watertight>(
-                PreparedRay(*rays_[i]), block, static_cast<int>(lane), packet_.best_t[i], hit))
+                PreparedRay(rays_[i]), block, static_cast<int>(lane), packet_.best_t[i], hit))
             return;
         NumberedHit closer = best(i);
         closer.keep_closer(hit, block.number[lane]);
@@ -154,53 +211,48 @@ template <class V, class P, bool AnyHit> class PacketTraversal {
     /// Of hits at the same t the lower number stays.
     void keep(const PacketHits<P>& hits, PrimitiveNumber number) {
         if constexpr (AnyHit) {
-            for (unsigned rest = P::bits(hits.hit); rest != 0; rest &= rest - 1)
-                take_out(static_cast<std::size_t>(std::countr_zero(rest)));
+            P::store_where(packet_.best_t, hits.hit, P::broadcast(-1)); // see take_out
             return;
         }
         const typename P::Floats best_t = P::load(packet_.best_t);
         unsigned closer = P::bits(hits.hit & P::less(hits.t, best_t));
         unsigned tied = P::bits(hits.hit & P::equal(hits.t, best_t));
         for (; tied != 0; tied &= tied - 1)
-            if (number < number_[std::countr_zero(tied)])
+            if (number < std::bit_cast<PrimitiveNumber>(number_[std::countr_zero(tied)]))
                 closer |= tied & (~tied + 1);
         const auto mask = P::mask(closer);
         P::store_where(packet_.best_t, mask, hits.t);
         P::store_where(u_, mask, hits.u);
         P::store_where(v_, mask, hits.v);
-        for (; closer != 0; closer &= closer - 1)
-            number_[std::countr_zero(closer)] = number;
+        P::store_where(number_, mask, P::broadcast(std::bit_cast<float>(number)));
     }
     void keep(std::size_t i, const NumberedHit& hit) {
         packet_.best_t[i] = hit.t;
         u_[i] = hit.u;
         v_[i] = hit.v;
-        number_[i] = hit.number;
+        number_[i] = std::bit_cast<float>(hit.number);
     }
     /// Ends a ray that found a hit: no box is entered before t = -1.
-    void take_out(std::size_t i) {
-        packet_.best_t[i] = -1;
-        number_[i] = 0;
-    }
+    void take_out(std::size_t i) { packet_.best_t[i] = -1; }
 
     /// The ray by itself, made on first use.
     WideRay& alone(std::size_t i) {
         auto* ray = reinterpret_cast<WideRay*>(alone_[i]);
         if ((made_ >> i & 1u) == 0)
-            ray = new (alone_[i]) WideRay(*rays_[i], tree_.reach);
+            ray = new (alone_[i]) WideRay(rays_[i], tree_.reach);
         made_ |= 1u << i;
         return *ray;
     }
 
     const WideView& tree_;
-    std::span<const Ray* const> rays_;
+    PacketRays rays_;
     RayPacket<P>& packet_;
     NodeTest<V> test_;
     float farthest_; ///< best t of the ray that has it farthest
     int size_ = 0;
     unsigned made_ = 0;
     alignas(64) float u_[P::width], v_[P::width];
-    PrimitiveNumber number_[P::width];
+    alignas(64) float number_[P::width]; ///< the bits of a PrimitiveNumber
     PacketEntry stack_[wide_max_stack];
     alignas(WideRay) std::byte alone_[P::width][sizeof(WideRay)];
 };

@@ -10,6 +10,18 @@
 namespace plumb {
 namespace {
 
+/// Numbers of rays of a stream.
+using RayIndices = std::span<const std::uint32_t>;
+
+/// Some rays of a stream, in its order.
+struct PacketRays {
+    const Ray* stream;
+    RayIndices indices;
+
+    const Ray& operator[](std::size_t i) const { return stream[indices[i]]; }
+};
+static_assert(sizeof(Ray) == 8 * sizeof(float));
+
 /// How far a packet's rays may be from its first: in the slope (components over the largest one),
 /// and in the origin, as a share of the scene. A packet that spreads wider visits more nodes than
 /// its rays one by one.
@@ -22,7 +34,7 @@ template <class P> struct RayPacket {
     using Row = float[width];
 
     alignas(64) Row near_inverse[3], near_addend[3], far_inverse[3], far_addend[3]; ///< as WideRay
-    alignas(64) Row origin[3], inverse[3], shear[3];
+    alignas(64) Row origin[3], inverse[3], shear[3]; // of kz no shear
     alignas(64) Row tmin;
     alignas(64) Row best_t; ///< tmax at first, then the closest hits'
     int kx, ky, kz;         ///< the same for all rays, as is `negative`
@@ -30,95 +42,91 @@ template <class P> struct RayPacket {
     bool alike; ///< only then does the rest hold
 
     /// At least one ray.
-    RayPacket(std::span<const Ray* const> rays, float reach) {
-        const float* start[width];
-        for (std::size_t i = 0; i < width; ++i)
-            start[i] = &rays[i < rays.size() ? i : 0]->origin.x;
+    RayPacket(const PacketRays& rays, float reach) {
         Floats rows[8]; // origin, tmin, direction, tmax: the members of Ray
-        P::transpose(start, rows);
-        const Vec3 first = rays[0]->direction, length = abs(first);
-        kz = length.x > length.y ? (length.x > length.z ? 0 : 2) : (length.y > length.z ? 1 : 2);
+        const std::size_t count = rays.indices.size();
+        if (count == width && rays.indices[width - 1] - rays.indices[0] == width - 1) [[likely]] {
+            const float* const start = &rays[0].origin.x;
+            P::transpose([start](int i) { return start + 8 * i; }, rows);
+        } else {
+            const float* start[width];
+            for (std::size_t i = 0; i < width; ++i)
+                start[i] = &rays[i < count ? i : 0].origin.x;
+            P::transpose([&start](int i) { return start[i]; }, rows);
+        }
+        const __m128 first = _mm_loadu_ps(&rays[0].direction.x);
+        kz = WideRay::largest_axis(absolute4(first));
         kx = kz == 2 ? 0 : kz + 1;
         ky = kx == 2 ? 0 : kx + 1;
-        negative = 0;
-        for (unsigned axis = 0; axis < 3; ++axis)
-            negative |= (std::signbit((&first.x)[axis]) ? 1u : 0u) << axis;
-        alike = run_alike(rows, rows + 4, reach) && are_ordinary(rows, reach);
-        if (!alike)
-            return;
-        P::store(tmin, rows[3] + P::broadcast(0)); // no -0
+        negative = static_cast<unsigned>(_mm_movemask_ps(first)) & 7u;
+        // The axis as a constant, so that all rows stay in registers.
+        alike = kz == 0 ? set_up<0>(rows, reach)
+                        : (kz == 1 ? set_up<1>(rows, reach) : set_up<2>(rows, reach));
         P::store(best_t, P::broadcast(-1));
-        P::store_where(best_t, P::mask((1u << rays.size()) - 1), rows[7]);
-        for (int axis = 0; axis < 3; ++axis)
-            P::store(origin[axis], rows[axis]);
-        set_coefficients(rows, inverse_rows_);
+        P::store_where(best_t, P::mask((1u << count) - 1), rows[7]);
     }
 
   private:
     using Floats = typename P::Floats;
     static constexpr unsigned all = (1u << width) - 1;
 
-    Floats inverse_rows_[3];
-
-    /// Fills in inverse and shear. Whether all rays have the signs and the largest axis of the
-    /// first, are near each other, and have no component next to nothing.
-    bool run_alike(const Floats* o, const Floats* d, float reach) {
-        const Floats longest = d[kz], length = P::absolute(longest);
+    /// Fills in all but best_t, if the rays have the signs and the largest axis of the first, are
+    /// near each other and ordinary, and have no component next to nothing. Returns whether they
+    /// do.
+    template <int Z> bool set_up(const Floats (&rows)[8], float reach) {
+        constexpr int X = Z == 2 ? 0 : Z + 1, Y = X == 2 ? 0 : X + 1;
+        const Floats* const d = rows + 4;
+        const Floats length = P::absolute(d[Z]);
         const Floats smallest = length * P::broadcast(0x1p-30f);
-        unsigned good = all;
+        // WideRay::is_ordinary of each.
+        const Floats limit = P::broadcast(wide_max_coordinate);
+        auto good = P::not_greater(P::broadcast(wide_min_direction), length) &
+                    P::not_greater(length, P::broadcast(wide_max_direction)) &
+                    P::not_greater(P::broadcast(0), rows[3]) & P::not_greater(rows[3], rows[7]) &
+                    P::not_greater(rows[3], limit);
+        unsigned signs = 0;
         for (int axis = 0; axis < 3; ++axis) {
-            const Floats other = P::absolute(d[axis]);
-            good &= ~P::bits(P::signs_differ(
-                d[axis], P::broadcast((negative >> axis & 1u) != 0 ? -1.0f : 1.0f)));
-            good &= P::bits(P::not_greater(smallest, other));
-            // PreparedRay takes kz = 2 where z is as long as another, and 1 before 0.
-            if (axis != kz)
-                good &= P::bits(kz > axis ? P::not_greater(other, length) : P::less(other, length));
+            signs |= P::signs(d[axis]) ^ ((negative >> axis & 1u) != 0 ? all : 0u);
+            good &= P::not_greater(P::absolute(rows[axis]), limit);
         }
-        if ((good & all) != all)
-            return false;
+        for (const int axis : {X, Y}) {
+            const Floats other = P::absolute(d[axis]);
+            // PreparedRay takes kz = 2 where z is as long as another, and 1 before 0.
+            good &= P::not_greater(smallest, other) &
+                    (Z > axis ? P::not_greater(other, length) : P::less(other, length));
+        }
+        const Floats slope_x = d[X] / d[Z], slope_y = d[Y] / d[Z];
         const Floats max_slope = P::broadcast(packet_max_slope);
         const Floats max_origin = P::broadcast(packet_max_origin * reach);
-        for (int axis = 0; axis < 3; ++axis) {
-            inverse_rows_[axis] = P::broadcast(1) / d[axis];
-            const Floats slope = d[axis] / longest;
-            P::store(inverse[axis], inverse_rows_[axis]);
-            P::store(shear[axis], slope);
-            good &= P::bits(P::not_greater(from_first(slope), max_slope)) &
-                    P::bits(P::not_greater(from_first(o[axis]), max_origin));
-        }
-        return (good & all) == all;
-    }
-
-    /// WideRay::is_ordinary of each.
-    bool are_ordinary(const Floats* rows, float reach) const {
-        const Floats limit = P::broadcast(wide_max_coordinate);
-        const Floats length = P::absolute(rows[4 + kz]);
-        unsigned good = all & P::bits(P::not_greater(P::broadcast(wide_min_direction), length)) &
-                        P::bits(P::not_greater(length, P::broadcast(wide_max_direction))) &
-                        P::bits(P::not_greater(P::broadcast(0), rows[3])) &
-                        P::bits(P::not_greater(rows[3], rows[7]));
-        for (int i = 0; i < 4; ++i)
-            good &= P::bits(P::not_greater(P::absolute(rows[i]), limit));
-        return good == all && reach <= wide_max_coordinate;
+        good &= P::not_greater(from_first(slope_x), max_slope) &
+                P::not_greater(from_first(slope_y), max_slope);
+        for (int axis = 0; axis < 3; ++axis)
+            good &= P::not_greater(from_first(rows[axis]), max_origin);
+        if (signs != 0 || static_cast<unsigned>(good) != all || !(reach <= wide_max_coordinate))
+            return false;
+        P::store(shear[X], slope_x);
+        P::store(shear[Y], slope_y);
+        P::store(tmin, rows[3] + P::broadcast(0)); // no -0
+        for (int axis = 0; axis < 3; ++axis)
+            set_coefficients(axis, rows[axis], P::broadcast(1) / d[axis]);
+        return true;
     }
 
     static Floats from_first(Floats x) { return P::absolute(x - P::repeat_first(x)); }
 
     /// As WideRay::set_coefficients.
-    void set_coefficients(const Floats* o_rows, const Floats* inv_rows) {
+    [[gnu::always_inline]] void set_coefficients(int axis, Floats o, Floats inv) {
         const Floats margin = P::broadcast(1e-36f), eight = P::broadcast(8 * unit_roundoff);
         const Floats zero = P::broadcast(0);
-        for (int axis = 0; axis < 3; ++axis) {
-            const Floats o = o_rows[axis], inv = inv_rows[axis];
-            const Floats near = inv * P::broadcast(1 - 48 * unit_roundoff);
-            const Floats far = inv * P::broadcast(1 + 40 * unit_roundoff);
-            const Floats n = o * near, f = o * far;
-            P::store(near_inverse[axis], near);
-            P::store(far_inverse[axis], far);
-            P::store(near_addend[axis], zero - n - (eight * P::absolute(n) + margin));
-            P::store(far_addend[axis], zero - f + (eight * P::absolute(f) + margin));
-        }
+        const Floats near = inv * P::broadcast(1 - 48 * unit_roundoff);
+        const Floats far = inv * P::broadcast(1 + 40 * unit_roundoff);
+        const Floats n = o * near, f = o * far;
+        P::store(origin[axis], o);
+        P::store(inverse[axis], inv);
+        P::store(near_inverse[axis], near);
+        P::store(far_inverse[axis], far);
+        P::store(near_addend[axis], zero - n - (eight * P::absolute(n) + margin));
+        P::store(far_addend[axis], zero - f + (eight * P::absolute(f) + margin));
     }
 };
 
@@ -127,37 +135,43 @@ template <class P> struct RayPacket {
 /// the farthest origin and the largest. (Where that near distance is negative the ray's tmin
 /// counts.)
 template <class P> struct PacketHull {
-    float near_inverse[3], near_addend[3], far_inverse[3], far_addend[3];
+    alignas(16) float near_inverse[4], near_addend[4], far_inverse[4], far_addend[4];
     float tmin;
     unsigned negative;
 
     explicit PacketHull(const RayPacket<P>& packet) : negative(packet.negative) {
         // Least and, negated, largest numbers, all of them together.
-        typename P::Floats origins[8], inverses[8];
+        typename P::Floats rows[16];
         for (int axis = 0; axis < 3; ++axis) {
-            origins[axis] = P::load(packet.origin[axis]);
-            inverses[axis] = P::load(packet.inverse[axis]);
-            origins[3 + axis] = P::negated(origins[axis]);
-            inverses[3 + axis] = P::negated(inverses[axis]);
+            rows[axis] = P::load(packet.origin[axis]);
+            rows[4 + axis] = P::negated(rows[axis]);
+            rows[8 + axis] = P::load(packet.inverse[axis]);
+            rows[12 + axis] = P::negated(rows[8 + axis]);
         }
-        origins[6] = origins[7] = P::load(packet.tmin);
-        inverses[6] = inverses[7] = inverses[0];
-        float o[8], i[8];
-        P::smallest(origins, o);
-        P::smallest(inverses, i);
-        tmin = o[6];
-        for (int axis = 0; axis < 3; ++axis) {
-            const float o_low = o[axis], o_high = -o[3 + axis];
-            const float i_low = i[axis], i_high = -i[3 + axis];
-            const bool down = (negative >> axis & 1u) != 0;
-            const float near = (down ? i_high : i_low) * (1 - 48 * unit_roundoff);
-            const float far = (down ? i_low : i_high) * (1 + 40 * unit_roundoff);
-            const float n = (down ? o_low : o_high) * near, f = (down ? o_high : o_low) * far;
-            near_inverse[axis] = near;
-            far_inverse[axis] = far;
-            near_addend[axis] = -n - (8 * unit_roundoff * std::fabs(n) + 1e-36f);
-            far_addend[axis] = -f + (8 * unit_roundoff * std::fabs(f) + 1e-36f);
-        }
+        rows[3] = rows[7] = rows[11] = rows[15] = P::load(packet.tmin);
+        __m128 least[4];
+        P::smallest(rows, least);
+        tmin = _mm_cvtss_f32(_mm_shuffle_ps(least[0], least[0], 0xff));
+        const __m128 minus = _mm_set1_ps(-0.0f);
+        const __m128 o_low = least[0], o_high = _mm_xor_ps(least[1], minus);
+        const __m128 i_low = least[2], i_high = _mm_xor_ps(least[3], minus);
+        const __m128 down = // all bits of an axis
+            _mm_castsi128_ps(_mm_srai_epi32(_mm_castps_si128(i_low), 31));
+        const auto choose = [down](__m128 where_down, __m128 where_up) {
+            return _mm_or_ps(_mm_and_ps(down, where_down), _mm_andnot_ps(down, where_up));
+        };
+        const __m128 near = _mm_mul_ps(choose(i_high, i_low), _mm_set1_ps(1 - 48 * unit_roundoff));
+        const __m128 far = _mm_mul_ps(choose(i_low, i_high), _mm_set1_ps(1 + 40 * unit_roundoff));
+        const __m128 n = _mm_mul_ps(choose(o_low, o_high), near);
+        const __m128 f = _mm_mul_ps(choose(o_high, o_low), far);
+        const auto margin = [](__m128 x) {
+            return _mm_add_ps(_mm_mul_ps(_mm_set1_ps(8 * unit_roundoff), absolute4(x)),
+                              _mm_set1_ps(1e-36f));
+        };
+        _mm_store_ps(near_inverse, near);
+        _mm_store_ps(far_inverse, far);
+        _mm_store_ps(near_addend, _mm_sub_ps(_mm_xor_ps(n, minus), margin(n)));
+        _mm_store_ps(far_addend, _mm_add_ps(_mm_xor_ps(f, minus), margin(f)));
     }
 };
 
