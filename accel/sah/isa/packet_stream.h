@@ -76,6 +76,7 @@ template <class P> class PacketStream {
         }
         return false;
     }
+
     /// Whether packets are worth trying: a sample of the rays has few kinds, or neighbours have the
     /// same.
     bool may_run_alike(std::size_t begin, std::size_t end) const {

@@ -88,7 +88,7 @@ template <class V, class P, bool AnyHit> class PacketTraversal {
     [[nodiscard]] unsigned found() const {
         return all_rays & ~P::bits(P::not_greater(P::broadcast(0), P::load(packet_.best_t)));
     }
-    /// What a ray found; of AnyHit only whether its number is valid.
+    /// Not AnyHit: what a ray found.
     [[nodiscard]] NumberedHit best(std::size_t ray) const {
         return {packet_.best_t[ray], u_[ray], v_[ray],
                 std::bit_cast<PrimitiveNumber>(number_[ray])};
@@ -151,26 +151,13 @@ template <class V, class P, bool AnyHit> class PacketTraversal {
             const auto i = static_cast<std::size_t>(std::countr_zero(active));
             WideRay& ray = alone(i);
             if constexpr (AnyHit) {
-                const bool found =
-                    ref.is_leaf() ? visit_leaf<V, TriangleTest::watertight>(
-                                        tree_, ref, ray, ray.tmax,
-                                        [](PrimitiveNumber, const PrimitiveHit&) { return true; })
-                                  : find_any<V, TriangleTest::watertight, Guess::branch>(
-                                        tree_, ray, ref, NoCounter{});
-                if (found)
+                if (find_any<V, TriangleTest::watertight, Guess::branch>(tree_, ray, ref,
+                                                                         NoCounter{}))
                     take_out(i);
             } else {
                 NumberedHit closer = best(i);
-                if (ref.is_leaf())
-                    visit_leaf<V, TriangleTest::watertight>(
-                        tree_, ref, ray, closer.t,
-                        [&](PrimitiveNumber number, const PrimitiveHit& hit) {
-                            closer.keep_closer(hit, number);
-                            return false;
-                        });
-                else
-                    find_closest<V, TriangleTest::watertight, Guess::branch>(tree_, ray, ref,
-                                                                             closer, NoCounter{});
+                find_closest<V, TriangleTest::watertight, Guess::branch>(tree_, ray, ref, closer,
+                                                                         NoCounter{});
                 keep(i, closer);
             }
         }

@@ -34,7 +34,7 @@ template <class P> struct RayPacket {
     using Row = float[width];
 
     alignas(64) Row near_inverse[3], near_addend[3], far_inverse[3], far_addend[3]; ///< as WideRay
-    alignas(64) Row origin[3], inverse[3], shear[3]; // of kz no shear
+    alignas(64) Row origin[3], inverse[3], shear[3]; ///< no shear of kz
     alignas(64) Row tmin;
     alignas(64) Row best_t; ///< tmax at first, then the closest hits'
     int kx, ky, kz;         ///< the same for all rays, as is `negative`
