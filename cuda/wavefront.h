@@ -122,19 +122,16 @@ template <Features F> RT_HD void shade_thread(const WaveJob& job, GridPosition a
     state.radiance += steps.emission(path, vertex, depth);
     if (steps.ends_at(vertex, depth))
         return;
-    const Sampler sampler = detail::SlotSample(job.device, slot).sampler(render);
-    const Sample4 u = sampler.group(direction_group(depth));
-    Sample4 choice{};
-    if (steps.chooses(depth))
-        choice = sampler.group(choice_group(depth));
+    const BounceNumbers u =
+        steps.numbers(detail::SlotSample(job.device, slot).sampler(render), depth);
     if (steps.samples_lights()) {
-        const DirectLight direct = steps.direct_light(path, vertex, {u.x[0], u.x[1]}, choice.x[0]);
+        const DirectLight direct = steps.direct_light(path, vertex, u.light_point, u.light);
         if (direct.counts)
             wave.shadows[detail::take_place(wave.counters->shadow)] = {direct.shadow,
                                                                        direct.radiance, slot};
     }
-    if (!steps.scatter(path, vertex, {u.x[2], u.x[3]}) ||
-        !steps.survives(path.throughput, depth, choice.x[1]))
+    if (!steps.scatter(path, vertex, u.direction) ||
+        !steps.survives(path.throughput, depth, u.roulette))
         return;
     state.path = path;
     wave.next[detail::take_place(wave.counters->next)] = slot;

@@ -52,7 +52,7 @@ template <bool Usual>
         bool sound = false;
         const Vertex v = vertex_of(l, l.geometric, i);
         const LightSample s = detail::sample_rectangle_in_float(
-            light, slack, v.position, {l.direction_u.x[0][i], l.direction_u.x[1][i]},
+            light, slack, v.position, {l.light_u.x[0][i], l.light_u.x[1][i]},
             settings.light_sampling, sound);
         const DirectLight direct = finish_direct(s, light.probability, v, l.wo[i], l.throughput[i],
                                                  material_of(l, i), settings);
@@ -128,14 +128,15 @@ void sample_rectangle(PathLanes& l, const Light& light, const PathSettings& path
 }
 
 [[gnu::flatten]] void scatter_lanes(PathLanes& l, const Vec3Lanes& shading,
-                                    HemisphereSampling hemisphere_sampling, std::size_t n) {
+                                    HemisphereSampling hemisphere_sampling, std::uint32_t first,
+                                    std::size_t n) {
     const std::size_t end = whole_vectors(n);
     with_constant<HemisphereSampling::cosine, HemisphereSampling::uniform>(
         hemisphere_sampling, [&](auto hemisphere) {
             for (std::size_t i = 0; i < end; ++i) {
                 const Scattered next = scatter_from(
                     vertex_of(l, shading, i), l.wo[i], l.throughput[i], material_of(l, i),
-                    hemisphere(), {l.direction_u.x[2][i], l.direction_u.x[3][i]});
+                    hemisphere(), {l.direction_u.x[first][i], l.direction_u.x[first + 1][i]});
                 l.flag[i] = next.lives ? 1 : 0;
                 l.next_origin.set(i, next.origin);
                 l.next_direction.set(i, next.direction);

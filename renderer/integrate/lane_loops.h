@@ -26,8 +26,9 @@ void interact_flat(PathLanes& lanes, std::size_t n);
 void sample_rectangle(PathLanes& lanes, const Light& light, const PathSettings& settings,
                       std::size_t n);
 
-/// New directions, with throughput and pdf; `flag`: whether the path lives. `shading`: normals.
+/// New directions from numbers `first` and first + 1 of direction_u, with throughput and pdf;
+/// `flag`: whether the path lives. `shading`: normals.
 void scatter_lanes(PathLanes& lanes, const Vec3Lanes& shading, HemisphereSampling hemisphere,
-                   std::size_t n);
+                   std::uint32_t first, std::size_t n);
 
 } // namespace plumb

@@ -6,7 +6,6 @@
 #pragma once
 
 #include "renderer/integrate/path_steps.h"
-#include "renderer/sampling/sampler.h"
 
 namespace plumb {
 
@@ -40,21 +39,17 @@ template <Features F, class Query>
         radiance += steps.emission(path, vertex, depth);
         if (steps.ends_at(vertex, depth))
             return radiance;
-        const Sample4 u = sampler.group(direction_group(depth));
-        Sample4 choice{};
-        if (steps.chooses(depth))
-            choice = sampler.group(choice_group(depth));
+        const BounceNumbers u = steps.numbers(sampler, depth);
         if (steps.samples_lights()) {
-            const DirectLight direct =
-                steps.direct_light(path, vertex, {u.x[0], u.x[1]}, choice.x[0]);
+            const DirectLight direct = steps.direct_light(path, vertex, u.light_point, u.light);
             if (direct.counts) {
                 ++counts.shadow;
                 if (!query.occluded(direct.shadow))
                     radiance += direct.radiance;
             }
         }
-        if (!steps.scatter(path, vertex, {u.x[2], u.x[3]}) ||
-            !steps.survives(path.throughput, depth, choice.x[1]))
+        if (!steps.scatter(path, vertex, u.direction) ||
+            !steps.survives(path.throughput, depth, u.roulette))
             return radiance;
     }
 }

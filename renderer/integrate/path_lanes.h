@@ -65,8 +65,8 @@ struct PathLanes {
     Vec3Lanes corner[3]; ///< of a flat triangle, and where it was hit
     Lanes<float> u, v;
 
-    // Its random numbers: for directions, and for choices.
-    SampleLanes direction_u, choice_u;
+    // Its random numbers: of light_group, and of direction_group.
+    SampleLanes light_u, direction_u;
 
     // What comes of it.
     FlagLanes flag, exception;

@@ -46,8 +46,8 @@ template <Features F> class PathStream {
                 break;
             draw_numbers(*lanes_, job_.sampler, direction_group(depth), living,
                          lanes_->direction_u);
-            if (steps_.chooses(depth))
-                draw_numbers(*lanes_, job_.sampler, choice_group(depth), living, lanes_->choice_u);
+            if (steps_.uses_light_group(depth))
+                draw_numbers(*lanes_, job_.sampler, light_group(depth), living, lanes_->light_u);
             if (steps_.samples_lights())
                 counts.shadow += add_direct_light(living);
             living = scatter(living, depth);
@@ -242,22 +242,22 @@ template <Features F> class PathStream {
         const PathLanes& l = *lanes_;
         if (l.material[i] == invalid_id)
             return {};
-        return steps_.direct_light(path_of(i), vertex_of(i),
-                                   {l.direction_u.x[0][i], l.direction_u.x[1][i]},
-                                   l.choice_u.x[0][i]);
+        return steps_.direct_light(path_of(i), vertex_of(i), {l.light_u.x[0][i], l.light_u.x[1][i]},
+                                   l.light_u.x[2][i]);
     }
 
     /// New directions. Returns how many paths go on; their rays are closed up.
     std::size_t scatter(std::size_t n, int depth) {
         PathLanes& l = *lanes_;
-        scatter_lanes(l, F.smooth_normals ? l.shading : l.geometric, job_.path.hemisphere, n);
+        scatter_lanes(l, F.smooth_normals ? l.shading : l.geometric, job_.path.hemisphere,
+                      first_of_direction(depth), n);
         std::size_t rays = 0;
         for (std::size_t i = 0; i < n; ++i) {
             if (l.flag[i] == 0)
                 continue;
             if (steps_.roulette_plays(depth)) {
                 Rgb throughput = l.throughput[i];
-                if (!steps_.survives(throughput, depth, l.choice_u.x[1][i]))
+                if (!steps_.survives(throughput, depth, l.light_u.x[3][i]))
                     continue;
                 l.throughput.set(i, throughput);
             }

@@ -18,8 +18,7 @@ Rgb radiance_by_recursion(const PathSteps<F>& steps, const Intersector& intersec
     const Rgb emitted = steps.emission(path, vertex, depth);
     if (steps.ends_at(vertex, depth))
         return emitted;
-    const Sample4 u = sampler.group(direction_group(depth));
-    if (!steps.scatter(path, vertex, {u.x[2], u.x[3]}))
+    if (!steps.scatter(path, vertex, steps.numbers(sampler, depth).direction))
         return emitted;
     return emitted + radiance_by_recursion(steps, intersector, path, sampler, depth + 1);
 }
