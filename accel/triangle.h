@@ -152,10 +152,21 @@ RT_HD inline bool intersect_triangle(const PreparedRay& ray, const Vec3& v0, con
             return false;
     }
     const Interval tight = slab_interval(ray.slab, vertex_bounds(v0, v1, v2));
-    hit.t = clamp_between(tight, hit.t);
-    if (tight.near <= tight.far) // lies within the interval of triangle_bounds, which is larger
+    if (tight.near <= tight.far) { // lies within the interval of triangle_bounds, which is larger
+        hit.t = clamp_between(tight, hit.t);
         return is_between(ray.tmin, hit.t, tmax);
-    return settle(ray, triangle_bounds(v0, v1, v2), tmax, hit);
+    }
+    // It passes beside the box by a rounding error. Along an axis that it is parallel to it does so
+    // everywhere; the others still say where.
+    const Bounds wide = triangle_bounds(v0, v1, v2);
+    Bounds across = vertex_bounds(v0, v1, v2);
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(std::fabs(ray.slab.inv_direction[axis]) < infinity)) {
+            across.lower[axis] = wide.lower[axis];
+            across.upper[axis] = wide.upper[axis];
+        }
+    hit.t = clamp_between(slab_interval(ray.slab, across), hit.t);
+    return settle(ray, wide, tmax, hit);
 }
 
 } // namespace plumb
