@@ -59,8 +59,8 @@ RT_HD inline float power_heuristic(float mine, float other) {
 
 /// Dimension groups of the sampler: 0 places the sample on the film. Bounce k (from 1) draws its
 /// light point, the light and roulette from group 2k; the directions of bounces k and k + 1, k odd,
-/// are one point of group k, so that they are stratified together: on the Cornell box a ninth less
-/// squared error from 64 samples on than directions that know nothing of each other.
+/// are one point of group k, so that they are stratified together, which leaves less error in what
+/// comes from the second bounce on than directions that know nothing of each other.
 RT_HD constexpr std::uint32_t light_group(int depth) {
     return 2 * static_cast<std::uint32_t>(depth);
 }

@@ -299,6 +299,26 @@ TEST(TriangleTest, WatertightLosesNothingBesideTheEdgesOfLargeWalls) {
               0);
 }
 
+/// Found by fuzzing. A ray along an axis starts in a corner of a triangle's box, 2^-148 outside of
+/// it across the ray: a plane that it never reaches must not push the hit to the far end.
+TEST(TriangleTest, ARayBesideTheBoxOfItsTriangleIsHitWhereTheOtherAxesSay) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto turned = [axis](float along, float y, float z) {
+            Vec3 v;
+            v[axis] = along;
+            v[(axis + 1) % 3] = y;
+            v[(axis + 2) % 3] = z;
+            return v;
+        };
+        const PreparedRay ray(Ray{{}, 0, turned(11.84f, 0, 0), infinity});
+        PrimitiveHit hit;
+        EXPECT_FALSE(intersect_triangle(ray, turned(0x1.48p-142f, 0x1.0ap-117f, 0x1p-148f),
+                                        turned(0, 0, 0x1.060cp-123f), turned(11.84f, 35.2f, 9.6e6f),
+                                        infinity, hit))
+            << axis << ": at " << hit.t << ", not 0";
+    }
+}
+
 TEST(TriangleBounds, ContainTheVerticesAndGrowByRoundingOnly) {
     Random random(47);
     for (int i = 0; i < 10000; ++i) {

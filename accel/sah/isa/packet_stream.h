@@ -91,11 +91,11 @@ template <class P> class PacketStream {
         }
         return std::popcount(kinds) <= max_kinds || 2 * same > sample_size;
     }
-    /// The rays of a group: memory, not the arithmetic, would set the pace in small trees.
+    /// Rays that are read soon: memory, not the arithmetic, would set the pace in small trees.
     void prefetch(std::size_t first) const {
-        const char* lines = reinterpret_cast<const char*>(rays_.data()) + first * sizeof(Ray);
-        for (std::size_t i = 0; i < group_size * sizeof(Ray); i += 64)
-            _mm_prefetch(lines + i, _MM_HINT_T0); // beyond the end it does nothing
+        const std::size_t end = std::min(first + group_size, rays_.size());
+        for (std::size_t i = first; i < end; i += 64 / sizeof(Ray))
+            _mm_prefetch(reinterpret_cast<const char*>(&rays_[i]), _MM_HINT_T0);
     }
     template <class Many> void trace_neighbours(std::size_t begin, std::size_t end, Many&& many) {
         for (std::size_t first = begin; first < end; first += group_size) {
