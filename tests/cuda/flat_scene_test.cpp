@@ -11,16 +11,12 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 namespace plumb::test {
 namespace {
 
-Scene rich_scene() {
-    const auto file = std::filesystem::path(::testing::TempDir()) / "plumb_flat_scene.xml";
-    std::ofstream(file, std::ios::binary) << rich_box();
-    Scene scene = load_scene({file, {{"side", "15"}, {"spp", "3"}}, false});
-    std::filesystem::remove(file);
-    return scene;
-}
+Scene rich_scene() { return load_xml(rich_box(), {{"side", "15"}, {"spp", "3"}}); }
 
 FlatScene rich_flat() {
     const Scene scene = rich_scene();
@@ -42,7 +38,8 @@ TEST(FlatScene, RendersTheSameBitsAfterAWayThroughAFile) {
     FlatScene flat = flatten("rich", job, features_of(scene));
     flat.image_hash = rendered(job, features_of(scene));
     flat.rays = {1, 2, 3};
-    const auto file = std::filesystem::path(::testing::TempDir()) / "plumb_flat_scene.flat";
+    const auto file = std::filesystem::path(::testing::TempDir()) /
+                      ("plumb_" + std::to_string(::getpid()) + ".flat");
     write_flat(file, flat);
     const FlatScene read = read_flat(file);
     std::filesystem::remove(file);

@@ -3,6 +3,7 @@
 
 #include "cuda/host_grid.h"
 #include "tests/support/box_scenes.h"
+#include "tests/support/render_scene.h"
 
 #include "accel/sah/build_compressed.h"
 #include "accel/sah/build_sah.h"
@@ -10,21 +11,13 @@
 #include "renderer/scene/scene_tables.h"
 
 #include <bit>
-#include <fstream>
 #include <gtest/gtest.h>
 
 namespace plumb::test {
 namespace {
 
 Scene load_text(const std::string& xml) {
-    const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(test.test_suite_name()) + "_" + test.name() + ".xml";
-    std::replace(name.begin(), name.end(), '/', '_');
-    const std::filesystem::path file =
-        std::filesystem::path(::testing::TempDir()) / ("plumb_" + name);
-    std::ofstream(file, std::ios::binary) << xml;
-    Scene scene = load_scene({file, {{"side", "21"}, {"spp", "5"}, {"sampler", "sobol"}}, false});
-    std::filesystem::remove(file);
+    Scene scene = load_xml(xml, {{"side", "21"}, {"spp", "5"}, {"sampler", "sobol"}});
     scene.path.max_depth = 6;
     scene.path.rr_depth = 2;
     return scene;

@@ -8,20 +8,12 @@
 #include "renderer/scene/image_hash.h"
 #include "renderer/scene/scene_tables.h"
 
-#include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
 
 namespace plumb::test {
 namespace {
 
-Scene rich_scene() {
-    const auto file = std::filesystem::path(::testing::TempDir()) / "plumb_validate_paths.xml";
-    std::ofstream(file, std::ios::binary) << rich_box();
-    Scene scene = load_scene({file, {{"side", "17"}, {"spp", "3"}}, false});
-    std::filesystem::remove(file);
-    return scene;
-}
+Scene rich_scene() { return load_xml(rich_box(), {{"side", "17"}, {"spp", "3"}}); }
 
 /// Answers as another does, apart from the n-th ray of one kind.
 class Liar final : public Intersector {

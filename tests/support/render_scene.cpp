@@ -81,6 +81,11 @@ Rendered render_file(const fs::path& file, const RenderSetup& setup) {
     return result;
 }
 
+Scene load_xml(std::string_view xml, decltype(LoadOptions::parameters) parameters) {
+    const TemporaryFolder folder;
+    return load_scene({folder.write("scene.xml", xml), std::move(parameters), false});
+}
+
 Rendered render_xml(std::string_view xml, const RenderSetup& setup, const SceneFileTexts& files) {
     const TemporaryFolder folder;
     for (const auto& [name, content] : files)

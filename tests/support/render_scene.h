@@ -57,6 +57,9 @@ class LoadedScene {
 /// Mesh files beside the scene: name and content.
 using SceneFileTexts = std::map<std::string, std::string>;
 
+/// Loads the text of a scene file, from a folder of its own: ctest runs tests side by side.
+[[nodiscard]] Scene load_xml(std::string_view xml, decltype(LoadOptions::parameters) parameters);
+
 /// The same for the text of a scene file, in a folder of its own that is removed afterwards.
 [[nodiscard]] Rendered render_xml(std::string_view xml, const RenderSetup& setup,
                                   const SceneFileTexts& files = {});
