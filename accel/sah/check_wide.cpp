@@ -35,7 +35,23 @@ class Checker {
         for (std::uint32_t g = 0; g < view_.geometry_count; ++g)
             if (view_.first_of[g] != numbering_.first_of(g))
                 return "first_of is wrong";
+        for (std::size_t i = 0; i < first_of_padding; ++i)
+            if (view_.first_of[view_.geometry_count + i] != invalid_id)
+                return "first_of is not padded";
+        if (view_.one_level != has_one_level())
+            return "one_level is wrong";
         return tree_.memory.bytes() % WideView::unit_bytes == 0 ? "" : "the memory is no units";
+    }
+
+    /// Whether all children of the root are blocks of triangles.
+    bool has_one_level() const {
+        if (view_.empty)
+            return false;
+        const auto& root = view_.at<WideNode>(WideRef{});
+        bool one_level = true;
+        for (int i = 0; i < wide_width && !root.bounds(i).empty(); ++i)
+            one_level &= root.child[i].is_leaf() && !root.child[i].has_spheres();
+        return one_level;
     }
 
     std::string check_primitives(bool spatial_splits) const {

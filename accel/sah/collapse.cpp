@@ -112,9 +112,14 @@ WideView WideBvh::view() const {
     WideView view;
     view.memory = memory.data();
     view.first_of = first_of.data();
-    view.geometry_count = static_cast<std::uint32_t>(first_of.size());
+    view.geometry_count =
+        static_cast<std::uint32_t>(std::max(first_of.size(), first_of_padding) - first_of_padding);
     view.reach = reach;
     view.empty = leaf_count == 0;
+    view.one_level = depth == 1;
+    if (view.one_level)
+        for (const WideRef child : view.at<WideNode>(WideRef{}).child)
+            view.one_level &= !child.has_spheres();
     view.tiny = memory.bytes() <= 16 * 1024;
     return view;
 }
@@ -124,6 +129,7 @@ WideBvh collapse(const BinaryBvh& binary, const GeometryView& geometry, int thre
     const PrimitiveNumbers numbering(geometry);
     for (std::uint32_t i = 0; i <= geometry.sphere_geometry(); ++i)
         tree.first_of.push_back(numbering.first_of(i));
+    tree.first_of.resize(tree.first_of.size() + first_of_padding, invalid_id);
     const WidePlan plan = plan_wide(binary, numbering.first_sphere());
     if (plan.nodes.empty())
         return tree;

@@ -27,18 +27,21 @@ struct NumberedHit {
     [[nodiscard]] Hit with_ids(const WideView& tree) const {
         if (number == invalid_id)
             return {};
-        // The last geometry whose first number is not greater: a few are looked through, of many
-        // the range is halved first.
-        std::uint32_t low = 0, geometry = tree.geometry_count - 1;
-        while (geometry - low > 8) {
-            const std::uint32_t middle = low + (geometry - low + 1) / 2;
-            if (tree.first_of[middle] <= number)
-                low = middle;
-            else
-                geometry = middle - 1;
+        // The last geometry whose first number is not greater: of many the range is halved until
+        // eight are left, which are counted without a jump.
+        std::uint32_t low = 0, count = tree.geometry_count;
+        while (count > 8) {
+            const std::uint32_t half = count / 2;
+            if (tree.first_of[low + half] <= number) {
+                low += half;
+                count -= half;
+            } else {
+                count = half;
+            }
         }
-        while (tree.first_of[geometry] > number)
-            --geometry;
+        std::uint32_t geometry = low - 1;
+        for (std::uint32_t i = 0; i < 8; ++i)
+            geometry += tree.first_of[low + i] <= number ? 1u : 0u;
         return {t, u, v, geometry, number - tree.first_of[geometry], invalid_id};
     }
 };

@@ -63,12 +63,14 @@ static_assert(sizeof(WideSpheres) == 192);
 
 /// What a traversal reads. Valid as long as its WideBvh.
 struct WideView {
-    const std::byte* memory = nullptr;         ///< the root, an inner node, lies first
-    const PrimitiveNumber* first_of = nullptr; ///< first number of each geometry
-    std::uint32_t geometry_count = 0;          ///< meshes and the one of all spheres
-    float reach = 0;                           ///< largest absolute coordinate of the root's box
-    bool empty = true;                         ///< nothing to hit, no root
-    bool tiny = false;                         ///< fits in the first-level cache beside the rest
+    const std::byte* memory = nullptr; ///< the root, an inner node, lies first
+    /// First number of each geometry, then first_of_padding times one that no primitive has.
+    const PrimitiveNumber* first_of = nullptr;
+    std::uint32_t geometry_count = 0; ///< meshes and the one of all spheres
+    float reach = 0;                  ///< largest absolute coordinate of the root's box
+    bool empty = true;                ///< nothing to hit, no root
+    bool one_level = false;           ///< the root's children are all blocks of triangles
+    bool tiny = false;                ///< fits in the first-level cache beside the rest
 
     static constexpr std::size_t unit_bytes = 64;
 
@@ -81,9 +83,12 @@ struct WideView {
     }
 };
 
+/// So many numbers behind WideView::first_of may be read with the last of them.
+inline constexpr std::size_t first_of_padding = 8;
+
 struct WideBvh {
-    TreeMemory memory; ///< the root, an inner node, lies first
-    std::vector<PrimitiveNumber> first_of;
+    TreeMemory memory;                     ///< the root, an inner node, lies first
+    std::vector<PrimitiveNumber> first_of; ///< padded, as WideView::first_of
     float reach = 0;
     std::size_t node_count = 0, leaf_count = 0; ///< inner nodes, blocks
     std::size_t lane_count = 0; ///< primitives in blocks; more than there are after spatial splits

@@ -9,7 +9,7 @@
 namespace plumb {
 
 /// Paths that are traced together. More make longer streams of rays; fewer stay in the cache.
-inline constexpr std::size_t max_lanes = 256;
+inline constexpr std::size_t max_lanes = 512;
 
 /// A number of each path. A line of the cache longer than it has to be: else the same lane of four
 /// arrays in a row, and so of dozens, would compete for one set of the first-level cache.
@@ -43,7 +43,7 @@ struct SampleLanes {
 /// Flags are words: as wide as what they are computed from.
 using FlagLanes = Lanes<std::uint32_t>;
 
-/// All that is kept of the paths between the steps. Zeroed when made; 160 kB.
+/// All that is kept of the paths between the steps. Zeroed when made; 320 kB.
 struct PathLanes {
     // Of each path as it was added.
     Lanes<std::int32_t> pixel_x, pixel_y;

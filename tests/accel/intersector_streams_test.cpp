@@ -1,6 +1,8 @@
 /// \file  Suite of every Intersector: a stream's answers are those of its rays one by one, to the
 /// bit.
 
+#include "accel/sah/build_binary.h"
+#include "accel/sah/collapse.h"
 #include "tests/accel/intersector_suite.h"
 
 #include <algorithm>
@@ -50,6 +52,23 @@ Rays incoherent_rays(Random& random, std::size_t count) {
     Rays rays;
     for (std::size_t i = 0; i < count; ++i)
         rays.push_back(random_ray(random));
+    return rays;
+}
+
+/// From planes of furnished_room, many along them.
+Rays rays_along_planes(Random& random, std::size_t count) {
+    constexpr float at[]{-1.5f, -0.5f, 0, 1.5f}, along[]{0, -0.0f, 1, -1};
+    Rays rays;
+    for (std::size_t i = 0; i < count; ++i) {
+        Ray ray = random_ray(random);
+        for (int axis = 0; axis < 3; ++axis) {
+            if (random.index(2) == 0)
+                ray.origin[axis] = at[random.index(4)];
+            if (random.index(2) == 0)
+                ray.direction[axis] = along[random.index(4)];
+        }
+        rays.push_back(ray);
+    }
     return rays;
 }
 
@@ -122,6 +141,7 @@ std::vector<Rays> all_streams(std::uint64_t seed) {
     }
     streams.push_back(light_rays(random, 1000));
     streams.push_back(incoherent_rays(random, 1000));
+    streams.push_back(rays_along_planes(random, 1000));
     for (const float scale : {0x1p-39f, 0x1p-41f, 0x1p39f, 0x1p41f}) {
         streams.push_back(pinhole_rays({0, 0, 3}, {0.02f, 0.01f, 0}, 4, 1));
         for (Ray& ray : streams.back())
@@ -175,6 +195,23 @@ TestGeometry degenerate_scene() {
     return TestGeometry(std::move(mesh));
 }
 
+/// A tree of a root and its leaves: a room with a box in it, both in two meshes of which one lies
+/// in the other's walls with its triangles in another order, and empty meshes between.
+TestGeometry furnished_room() {
+    TestGeometry scene;
+    for (const bool again : {false, true}) {
+        for (Mesh mesh :
+             {box({-1.5f, -1.5f, -1.5f}, {1.5f, 2, 1.5f}), box({-0.5f, -1.5f, -0.5f}, {0, 0, 0})}) {
+            if (again)
+                std::reverse(mesh.triangles.begin(), mesh.triangles.end());
+            scene.add(std::move(mesh));
+            for (int i = 0; i < 3; ++i)
+                scene.add(Mesh{});
+        }
+    }
+    return scene;
+}
+
 struct NamedScene {
     const char* name;
     TestGeometry geometry;
@@ -188,6 +225,7 @@ std::vector<NamedScene> stream_scenes() {
     scenes.push_back({"ties", tied_meshes()});
     scenes.push_back({"degenerate", degenerate_scene()});
     scenes.push_back({"room", TestGeometry(box({-1.5f, -1.5f, -1.5f}, {1.5f, 2, 1.5f}))});
+    scenes.push_back({"furnished room", furnished_room()});
     scenes.push_back({"displaced sphere", TestGeometry(displaced_sphere({0, 0, 0}, 1, 60))});
     scenes.push_back({"needles", TestGeometry(needles(random, 1000, 0.02f))});
     TestGeometry spheres;
@@ -195,6 +233,15 @@ std::vector<NamedScene> stream_scenes() {
         spheres.add(Sphere{0.25f * s.center - Vec3{0.9f, 0.9f, 0.9f}, 0.25f * s.radius});
     scenes.push_back({"spheres", std::move(spheres)});
     return scenes;
+}
+
+TEST(IntersectorStreamsScenes, FurnishedRoomIsATreeOfOneLevel) {
+    const TestGeometry room = furnished_room();
+    for (const BuildQuality quality :
+         {BuildQuality::fast, BuildQuality::medium, BuildQuality::high}) {
+        const BinaryBvh binary = build_binary(room.view(), {quality, 1});
+        EXPECT_TRUE(collapse(binary, room.view(), 1).view().one_level) << name_of(quality);
+    }
 }
 
 TEST_P(IntersectorStreams, AnswerAsTheirRaysDoOneByOne) {

@@ -124,6 +124,7 @@ std::vector<Damage> damages() {
         {"a depth counted wrongly", [](Parts& p) { ++p.tree.depth; }, "counted"},
         {"lanes counted wrongly", [](Parts& p) { ++p.tree.lane_count; }, "counted"},
         {"a first number that is wrong", [](Parts& p) { ++p.tree.first_of[1]; }, "first_of"},
+        {"no padding", [](Parts& p) { --p.tree.first_of.back(); }, "padded"},
         {"a reach that is too small", [](Parts& p) { p.tree.reach *= 0.5f; }, "reach"},
     };
 }
@@ -140,6 +141,21 @@ TEST(WideTreeCheck, SeesADamagedTree) {
         EXPECT_NE(check_wide(tree, scene.view(), false).find(damage.expected), std::string::npos)
             << damage.what << ": " << check_wide(tree, scene.view(), false);
     }
+}
+
+TEST(WideTreeCheck, TellsTreesOfOneLevel) {
+    const auto one_level = [](const TestGeometry& scene) {
+        return build_wide(scene.view(), BuildQuality::medium, 1).view().one_level;
+    };
+    Random random(128);
+    TestGeometry room(box({-1, -1, -1}, {1, 1, 1}));
+    EXPECT_TRUE(one_level(room));
+    room.add(box({-0.5f, -1, -0.5f}, {0, 0, 0}));
+    EXPECT_TRUE(one_level(room));
+    room.add(Sphere{{0.5f, 0, 0}, 0.1f});
+    EXPECT_FALSE(one_level(room));
+    EXPECT_FALSE(one_level(TestGeometry(triangle_soup(random, 65, 0.3f))));
+    EXPECT_FALSE(one_level(TestGeometry()));
 }
 
 TEST(WideTreeCheck, TellsSplitTrianglesFromLostOnes) {

@@ -82,9 +82,32 @@ struct Lanes {
         return count;
     }
 
-  private:
-    static constexpr int lane_bits = 7;
+    static constexpr std::uint32_t lane_bits = 7, no_key = 0xffffffff;
+    /// Keys of the lanes whose bit is set (OneLevelRay): distances, which are not negative, with
+    /// the lane in their last bits. The key of others is a NaN.
+    static void store_keys(std::uint32_t* to, Floats near, unsigned mask) {
+        const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+        const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+        const __m256i out =
+            _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(static_cast<int>(mask)), bit),
+                               _mm256_setzero_si256());
+        const __m256i distance =
+            _mm256_andnot_si256(_mm256_set1_epi32(lane_bits), _mm256_castps_si256(near));
+        _mm256_store_si256(reinterpret_cast<__m256i*>(to),
+                           _mm256_or_si256(_mm256_or_si256(distance, lane), out));
+    }
+    /// The least key, in whose place no_key is left.
+    static std::uint32_t take_least(std::uint32_t* keys) {
+        const __m256i all = _mm256_load_si256(reinterpret_cast<const __m256i*>(keys));
+        __m256i least = _mm256_min_epu32(all, _mm256_permute2x128_si256(all, all, 1));
+        least = _mm256_min_epu32(least, _mm256_shuffle_epi32(least, 0b01'00'11'10));
+        least = _mm256_min_epu32(least, _mm256_shuffle_epi32(least, 0b10'11'00'01));
+        _mm256_store_si256(reinterpret_cast<__m256i*>(keys),
+                           _mm256_or_si256(all, _mm256_cmpeq_epi32(all, least)));
+        return static_cast<std::uint32_t>(_mm256_cvtsi256_si32(least));
+    }
 
+  private:
     static __m256i packed_lanes(unsigned mask) {
         return _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(packing[mask])));
     }

@@ -3,6 +3,7 @@
 
 #include "accel/sah/isa/interleaved.h"
 #include "accel/sah/isa/kernels.h"
+#include "accel/sah/isa/leaf_queues.h"
 #include "accel/sah/isa/packet_stream.h"
 #include "accel/sah/isa/packet_traverse.h"
 #include "accel/sah/wide_careful.h"
@@ -84,7 +85,7 @@ template <class V, class P, TriangleTest Test> struct Kernels {
   private:
     using Packets = std::conditional_t<Test == TriangleTest::watertight, P, NoPackets>;
 
-    /// As packets where rays run alike, else interleaved or, in tiny trees, one by one.
+    /// As packets where rays run alike, else by themselves (trace_alone).
     /// `careful(i)` traces a ray that is not ordinary, take(i, hit) gets what the others found.
     template <bool AnyHit, class Careful, class Take>
     static void trace_stream(const WideView& tree, std::span<const Ray> rays, Careful&& careful,
@@ -124,30 +125,36 @@ template <class V, class P, TriangleTest Test> struct Kernels {
         return best;
     }
 
+    /// Before the leaves of a tree of one level, interleaved or, in other tiny trees, one by one.
     template <bool AnyHit, class Careful, class Take>
     static void trace_alone(const WideView& tree, std::span<const Ray> rays, RayIndices indices,
                             Careful&& careful, Take&& take) {
-        if (tree.tiny) { // in the cache, and guessed well
-            for (const std::uint32_t i : indices)
-                if (WideRay::is_ordinary(rays[i], tree.reach)) [[likely]]
-                    take(i, find_one<AnyHit>(tree, rays[i]));
-                else
-                    careful(i);
-            return;
-        }
         std::size_t i = 0;
-        Interleaved<V, Test, AnyHit>::of_this_thread().run(
-            tree,
-            [&](std::uint32_t& index) -> const Ray* {
-                while (i < indices.size()) {
-                    index = indices[i++];
-                    if (WideRay::is_ordinary(rays[index], tree.reach)) [[likely]]
-                        return &rays[index];
-                    careful(index);
-                }
-                return nullptr;
-            },
-            [&](const auto& ray) { take(ray.index(), ray.best()); });
+        const auto next = [&](std::uint32_t& index) -> const Ray* {
+            while (i < indices.size()) {
+                index = indices[i++];
+                if (WideRay::is_ordinary(rays[index], tree.reach)) [[likely]]
+                    return &rays[index];
+                careful(index);
+            }
+            return nullptr;
+        };
+        if constexpr (Packets::width > 0)
+            if (tree.one_level) {
+                LeafQueues<V, Packets, AnyHit>::of_this_thread().run(
+                    tree, rays.data(), next,
+                    [&](std::uint32_t index) { take(index, find_one<AnyHit>(tree, rays[index])); },
+                    take);
+                return;
+            }
+        if (tree.tiny) { // in the cache, and guessed well
+            std::uint32_t index = 0;
+            while (const Ray* ray = next(index))
+                take(index, find_one<AnyHit>(tree, *ray));
+        } else {
+            Interleaved<V, Test, AnyHit>::of_this_thread().run(
+                tree, next, [&](const auto& ray) { take(ray.index(), ray.best()); });
+        }
     }
 };
 

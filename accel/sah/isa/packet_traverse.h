@@ -51,7 +51,6 @@ template <class V, class P, bool AnyHit> class PacketTraversal {
   public:
     PacketTraversal(const WideView& tree, const PacketRays& rays, RayPacket<P>& packet)
         : tree_(tree), rays_(rays), packet_(packet), test_(PacketHull<P>(packet)) {
-        P::store(number_, P::broadcast(std::bit_cast<float>(invalid_id)));
         find_farthest();
     }
 
@@ -90,8 +89,7 @@ template <class V, class P, bool AnyHit> class PacketTraversal {
     }
     /// Not AnyHit: what a ray found.
     [[nodiscard]] NumberedHit best(std::size_t ray) const {
-        return {packet_.best_t[ray], u_[ray], v_[ray],
-                std::bit_cast<PrimitiveNumber>(number_[ray])};
+        return best_.at(ray, packet_.best_t[ray]);
     }
 
   private:
@@ -195,29 +193,15 @@ template <class V, class P, bool AnyHit> class PacketTraversal {
             take_out(i);
     }
 
-    /// Of hits at the same t the lower number stays.
     void keep(const PacketHits<P>& hits, PrimitiveNumber number) {
-        if constexpr (AnyHit) {
+        if constexpr (AnyHit)
             P::store_where(packet_.best_t, hits.hit, P::broadcast(-1)); // see take_out
-            return;
-        }
-        const typename P::Floats best_t = P::load(packet_.best_t);
-        unsigned closer = P::bits(hits.hit & P::less(hits.t, best_t));
-        unsigned tied = P::bits(hits.hit & P::equal(hits.t, best_t));
-        for (; tied != 0; tied &= tied - 1)
-            if (number < std::bit_cast<PrimitiveNumber>(number_[std::countr_zero(tied)]))
-                closer |= tied & (~tied + 1);
-        const auto mask = P::mask(closer);
-        P::store_where(packet_.best_t, mask, hits.t);
-        P::store_where(u_, mask, hits.u);
-        P::store_where(v_, mask, hits.v);
-        P::store_where(number_, mask, P::broadcast(std::bit_cast<float>(number)));
+        else
+            best_.keep(packet_.best_t, hits, number);
     }
     void keep(std::size_t i, const NumberedHit& hit) {
         packet_.best_t[i] = hit.t;
-        u_[i] = hit.u;
-        v_[i] = hit.v;
-        number_[i] = std::bit_cast<float>(hit.number);
+        best_.set(i, hit);
     }
     /// Ends a ray that found a hit: no box is entered before t = -1.
     void take_out(std::size_t i) { packet_.best_t[i] = -1; }
@@ -238,8 +222,7 @@ template <class V, class P, bool AnyHit> class PacketTraversal {
     float farthest_; ///< best t of the ray that has it farthest
     int size_ = 0;
     unsigned made_ = 0;
-    alignas(64) float u_[P::width], v_[P::width];
-    alignas(64) float number_[P::width]; ///< the bits of a PrimitiveNumber
+    PacketBest<P> best_;
     PacketEntry stack_[wide_max_stack];
     alignas(WideRay) std::byte alone_[P::width][sizeof(WideRay)];
 };

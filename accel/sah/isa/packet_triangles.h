@@ -5,7 +5,7 @@
 #pragma once
 
 #include "accel/sah/isa/ray_packet.h"
-#include "accel/sah/wide_bvh.h"
+#include "accel/sah/numbered_hit.h"
 
 namespace plumb {
 namespace {
@@ -38,11 +38,11 @@ template <class P> struct PacketHits {
     typename P::Mask exact; ///< rays for which intersect_triangle has to decide
 };
 
-/// See settle_lanes.
-template <class P>
-[[gnu::always_inline]] inline void settle_packet(const RayPacket<P>& packet,
-                                                 const WideTriangles& block, std::size_t lane,
-                                                 typename P::Mask candidates, PacketHits<P>& hits) {
+/// See settle_lanes. `Packet`: has the rows of a RayPacket that are not of its box test.
+template <class P, class Packet>
+[[gnu::always_inline]] inline void settle_packet(const Packet& packet, const WideTriangles& block,
+                                                 std::size_t lane, typename P::Mask candidates,
+                                                 PacketHits<P>& hits) {
     using Floats = typename P::Floats;
     Floats near, far;
     for (int axis = 0; axis < 3; ++axis) {
@@ -64,9 +64,9 @@ template <class P>
     hits.exact |= candidates & static_cast<typename P::Mask>(~crossed);
 }
 
-template <class P>
+template <class P, class Packet>
 [[gnu::always_inline]] inline void
-test_packet_watertight(const RayPacket<P>& packet, const WideTriangles& block, std::size_t lane,
+test_packet_watertight(const Packet& packet, const WideTriangles& block, std::size_t lane,
                        typename P::Mask active, PacketHits<P>& hits) {
     using Floats = typename P::Floats;
     const Floats ox = P::load(packet.origin[packet.kx]), oy = P::load(packet.origin[packet.ky]);
@@ -104,6 +104,37 @@ test_packet_watertight(const RayPacket<P>& packet, const WideTriangles& block, s
         (weigh(u * scale, hits.u, hits.v, z) + slide * scale) * P::load(packet.inverse[packet.kz]);
     settle_packet<P>(packet, block, lane, inside, hits);
 }
+
+/// What the rays of a packet have found beside best_t.
+template <class P> struct PacketBest {
+    alignas(64) float u[P::width], v[P::width];
+    alignas(64) float number[P::width]; ///< the bits of a PrimitiveNumber
+
+    PacketBest() { P::store(number, P::broadcast(std::bit_cast<float>(invalid_id))); }
+
+    /// Of hits at the same t the lower number stays.
+    void keep(float* best_t, const PacketHits<P>& hits, PrimitiveNumber candidate) {
+        const typename P::Floats old = P::load(best_t);
+        unsigned closer = P::bits(hits.hit & P::less(hits.t, old));
+        unsigned tied = P::bits(hits.hit & P::equal(hits.t, old));
+        for (; tied != 0; tied &= tied - 1)
+            if (candidate < std::bit_cast<PrimitiveNumber>(number[std::countr_zero(tied)]))
+                closer |= tied & (~tied + 1);
+        const auto mask = P::mask(closer);
+        P::store_where(best_t, mask, hits.t);
+        P::store_where(u, mask, hits.u);
+        P::store_where(v, mask, hits.v);
+        P::store_where(number, mask, P::broadcast(std::bit_cast<float>(candidate)));
+    }
+    void set(std::size_t i, const NumberedHit& hit) {
+        u[i] = hit.u;
+        v[i] = hit.v;
+        number[i] = std::bit_cast<float>(hit.number);
+    }
+    [[nodiscard]] NumberedHit at(std::size_t i, float t) const {
+        return {t, u[i], v[i], std::bit_cast<PrimitiveNumber>(number[i])};
+    }
+};
 
 } // namespace
 } // namespace plumb

@@ -5,6 +5,7 @@
 #include "tests/support/render_scene.h"
 #include "tests/support/scene_text.h"
 
+#include "renderer/integrate/path_lanes.h"
 #include "renderer/scene/scene_tables.h"
 
 #include <atomic>
@@ -140,7 +141,7 @@ TEST(StreamsImage, CancelledInATileItKeepsWholeSamples) {
     RenderJob job = make_job(scene, tables.view());
     const Features needed = features_of(scene);
     Film film = render(job, needed, interruption, how, stats);
-    EXPECT_EQ(interruption.longest(), std::size_t{256}) << "camera rays come in whole streams";
+    EXPECT_EQ(interruption.longest(), max_lanes) << "camera rays come in whole streams";
     EXPECT_LT(stats.samples, 16u * 16 * 64);
     std::map<std::uint32_t, Film> films; // by samples a pixel
     how.cancel = nullptr;
