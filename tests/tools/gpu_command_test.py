@@ -26,7 +26,7 @@ class GpuCommand(unittest.TestCase):
         scenes = [os.path.join(PROJECT, "scenes", name) for name in ("cornell-box.xml", "sphere-light.xml")]
         done = run(FLATTEN, "--res", "24", "--spp", "2", cls.flat, *scenes)
         assert done.returncode == 0, done.stderr
-        assert done.stdout.count("image ") == 6, done.stdout  # three variants each
+        assert done.stdout.count("image ") == 8, done.stdout  # four variants each
 
     @classmethod
     def tearDownClass(cls):
@@ -36,13 +36,14 @@ class GpuCommand(unittest.TestCase):
         path = os.path.join(self.folder.name, "images.json")
         done = run(GPU, "--host", "--images", "--flat", self.flat, "--json", path)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertEqual(done.stdout.count("same bits"), 24)
+        self.assertEqual(done.stdout.count("same bits"), 32)
         with open(path, encoding="utf-8") as file:
             images = json.load(file)["images"]
-        self.assertEqual(len(images), 24)
+        self.assertEqual(len(images), 32)
         self.assertEqual({image["tree"] for image in images}, {"binary", "wide"})
         self.assertEqual({image["schedule"] for image in images}, {"megakernel", "wavefront"})
         self.assertEqual({image["profile"] for image in images}, {"box", "full"})
+        self.assertEqual({image["profile"] for image in images if image["scene"] == "cornell-box-full"}, {"full"})
         for image in images:
             self.assertTrue(image["same_image"] and image["same_rays"], image)
             self.assertGreater(image["mpaths_per_s"], 0)

@@ -23,17 +23,19 @@ struct Options {
     int res = 96, spp = 4;
 };
 
-/// What the tests of the GPU vary: samplers, estimators, triangle tests, film.
+/// What the tests of the GPU vary: samplers, estimators, triangle tests, kernels.
 struct Variant {
     const char* suffix;
     SamplerKind sampler;
     Estimator estimator;
     TriangleTest test;
+    bool full_profile; ///< the kernel that can do everything, whatever the scene needs
 };
 constexpr Variant variants[] = {
-    {"", SamplerKind::sobol, Estimator::mis, TriangleTest::watertight},
-    {"-light", SamplerKind::independent, Estimator::light, TriangleTest::watertight},
-    {"-bsdf", SamplerKind::sobol, Estimator::bsdf, TriangleTest::moeller_trumbore}};
+    {"", SamplerKind::sobol, Estimator::mis, TriangleTest::watertight, false},
+    {"-full", SamplerKind::sobol, Estimator::mis, TriangleTest::watertight, true},
+    {"-light", SamplerKind::independent, Estimator::light, TriangleTest::watertight, false},
+    {"-bsdf", SamplerKind::sobol, Estimator::bsdf, TriangleTest::moeller_trumbore, false}};
 
 /// The reference is naive's: the plainest tree that there is.
 FlatScene with_reference(std::string name, const RenderJob& job, const Features& needed,
@@ -59,8 +61,9 @@ int run(const Options& options) {
             scene.sampler.kind = variant.sampler;
             scene.path.estimator = variant.estimator;
             const std::string name = file.stem().string() + variant.suffix;
-            const FlatScene flat = with_reference(name, make_job(scene, tables.view()),
-                                                  features_of(scene), variant.test);
+            const Features needed = variant.full_profile ? full_profile : features_of(scene);
+            const FlatScene flat =
+                with_reference(name, make_job(scene, tables.view()), needed, variant.test);
             write_flat(options.folder / (name + ".flat"), flat);
             fmt::print("{}: image {:016x}\n", name, flat.image_hash);
         }
