@@ -1,10 +1,9 @@
-/// \file  Batches of rays on the device: RayTracer's other side.
+#include "cuda/device_rays.h"
 
 #include "cuda/device.h"
 #include "cuda/device_buffer.h"
 #include "cuda/place_scene.h"
 #include "cuda/ray_launch.h"
-#include "cuda/ray_side.h"
 
 #include <optional>
 
@@ -38,63 +37,62 @@ class KernelClock {
     cudaEvent_t begin_ = nullptr, end_ = nullptr;
 };
 
-class DeviceSide final : public RayTracer::Side {
-  public:
-    DeviceSide(const TreeViews& trees, CudaTree tree, TriangleTest test)
-        : tree_(tree), test_(test) {
-        start_device();
-        Arena measure;
-        static_cast<void>(place(trees, measure));
-        require_device_memory(measure.used(), "the tree");
-        block_.emplace(measure.used());
-        Arena arena(block_->data(), [](std::byte* to, const void* from, std::size_t bytes) {
-            RT_CUDA_CHECK(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice));
-        });
-        job_.trees = place(trees, arena);
-    }
-
-    void load(std::span<const Ray> rays) override {
-        RT_CUDA_CHECK(cudaSetDevice(0)); // of this thread
-        if (!rays_ || rays_->size() < rays.size()) {
-            rays_.emplace(rays.size());
-            hits_.emplace(rays.size());
-            found_.emplace(rays.size());
-        }
-        rays_->copy_from(rays);
-        job_.rays = rays_->data();
-        job_.count = rays.size();
-        job_.hits = hits_->data();
-        job_.found = found_->data();
-    }
-    double trace(bool any_hit) override {
-        if (!clock_)
-            clock_.emplace();
-        clock_->begin();
-        launch_rays(job_, tree_, test_, any_hit);
-        return clock_->end();
-    }
-    void fetch(std::span<Hit> hits) const override { hits_->copy_to(hits); }
-    void fetch(std::span<std::uint8_t> found) const override { found_->copy_to(found); }
-    [[nodiscard]] std::vector<KernelReport> kernels(bool any_hit) const override {
-        return {ray_kernel_report(tree_, test_, any_hit)};
-    }
-
-  private:
-    CudaTree tree_;
-    TriangleTest test_;
-    RayJob job_;
-    std::optional<DeviceBuffer<std::byte>> block_;
-    std::optional<DeviceBuffer<Ray>> rays_;
-    std::optional<DeviceBuffer<Hit>> hits_;
-    std::optional<DeviceBuffer<std::uint8_t>> found_;
-    std::optional<KernelClock> clock_;
-};
-
 } // namespace
 
-std::unique_ptr<RayTracer::Side> make_device_side(const TreeViews& trees, CudaTree tree,
-                                                  TriangleTest test) {
-    return std::make_unique<DeviceSide>(trees, tree, test);
+struct DeviceRays::State {
+    CudaTree tree;
+    TriangleTest test;
+    RayJob job{};
+    std::optional<DeviceBuffer<std::byte>> block{};
+    std::optional<DeviceBuffer<Ray>> rays{};
+    std::optional<DeviceBuffer<Hit>> hits{};
+    std::optional<DeviceBuffer<std::uint8_t>> found{};
+    std::optional<KernelClock> clock{};
+};
+
+DeviceRays::DeviceRays(const TreeViews& trees, CudaTree tree, TriangleTest test)
+    : state_(new State{tree, test}) {
+    start_device();
+    Arena measure;
+    static_cast<void>(place(trees, measure));
+    require_device_memory(measure.used(), "the tree");
+    state_->block.emplace(measure.used());
+    Arena arena(state_->block->data(), [](std::byte* to, const void* from, std::size_t bytes) {
+        RT_CUDA_CHECK(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice));
+    });
+    state_->job.trees = place(trees, arena);
+}
+
+DeviceRays::~DeviceRays() = default;
+
+void DeviceRays::load(std::span<const Ray> rays) {
+    RT_CUDA_CHECK(cudaSetDevice(0)); // of this thread
+    State& s = *state_;
+    if (!s.rays || s.rays->size() < rays.size()) {
+        s.rays.emplace(rays.size());
+        s.hits.emplace(rays.size());
+        s.found.emplace(rays.size());
+    }
+    s.rays->copy_from(rays);
+    s.job.rays = s.rays->data();
+    s.job.count = rays.size();
+    s.job.hits = s.hits->data();
+    s.job.found = s.found->data();
+}
+
+double DeviceRays::trace(bool any_hit) {
+    if (!state_->clock)
+        state_->clock.emplace();
+    state_->clock->begin();
+    launch_rays(state_->job, state_->tree, state_->test, any_hit);
+    return state_->clock->end();
+}
+
+void DeviceRays::fetch(std::span<Hit> hits) const { state_->hits->copy_to(hits); }
+void DeviceRays::fetch(std::span<std::uint8_t> found) const { state_->found->copy_to(found); }
+
+std::vector<KernelReport> DeviceRays::kernels(bool any_hit) const {
+    return {ray_kernel_report(state_->tree, state_->test, any_hit)};
 }
 
 } // namespace plumb

@@ -1,7 +1,7 @@
 /// \file  What a build without CUDA has in place of cuda_render.cpp and the kernels.
 
 #include "cuda/cuda_render.h"
-#include "cuda/ray_side.h"
+#include "cuda/device_rays.h"
 
 namespace plumb {
 namespace {
@@ -25,9 +25,16 @@ Film render_on_cuda(const RenderJob& /*job*/, const Features& /*needed*/,
     throw DeviceError(built_without);
 }
 
-std::unique_ptr<RayTracer::Side> make_device_side(const TreeViews& /*trees*/, CudaTree /*tree*/,
-                                                  TriangleTest /*test*/) {
+// There is never one.
+struct DeviceRays::State {};
+DeviceRays::DeviceRays(const TreeViews& /*trees*/, CudaTree /*tree*/, TriangleTest /*test*/) {
     throw DeviceError(built_without);
 }
+DeviceRays::~DeviceRays() = default;
+void DeviceRays::load(std::span<const Ray> /*rays*/) {}
+double DeviceRays::trace(bool /*any_hit*/) { return 0; }
+void DeviceRays::fetch(std::span<Hit> /*hits*/) const {}
+void DeviceRays::fetch(std::span<std::uint8_t> /*found*/) const {}
+std::vector<KernelReport> DeviceRays::kernels(bool /*any_hit*/) const { return {}; }
 
 } // namespace plumb

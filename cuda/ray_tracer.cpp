@@ -1,11 +1,12 @@
 #include "cuda/ray_tracer.h"
 
+#include "cuda/device_rays.h"
 #include "cuda/host_executor.h"
 #include "cuda/ray_kernel.h"
-#include "cuda/ray_side.h"
 
 #include <chrono>
 #include <mutex>
+#include <variant>
 
 namespace plumb {
 namespace {
@@ -23,16 +24,16 @@ struct Tally {
     void primitive() { ++counts.triangles; }
 };
 
-/// The kernel's body in a loop.
-class HostSide final : public RayTracer::Side {
+/// The kernel's body in a loop: what DeviceRays does, on the host.
+class HostRays {
   public:
-    HostSide(const TreeViews& trees, CudaTree tree, TriangleTest test)
+    HostRays(const TreeViews& trees, CudaTree tree, TriangleTest test)
         : block_(placed_size({}, trees)), tree_(tree), test_(test) {
         Arena arena = block_.arena();
         job_.trees = place(trees, arena);
     }
 
-    void load(std::span<const Ray> rays) override {
+    void load(std::span<const Ray> rays) {
         rays_.assign(rays.begin(), rays.end());
         hits_.assign(rays.size(), {});
         found_.assign(rays.size(), 0);
@@ -41,7 +42,7 @@ class HostSide final : public RayTracer::Side {
         job_.hits = hits_.data();
         job_.found = found_.data();
     }
-    double trace(bool any_hit) override {
+    double trace(bool any_hit) {
         const auto start = Clock::now();
         if (test_ == TriangleTest::watertight)
             any_hit ? with<TriangleTest::watertight, true>()
@@ -51,13 +52,11 @@ class HostSide final : public RayTracer::Side {
                     : with<TriangleTest::moeller_trumbore, false>();
         return seconds_since(start);
     }
-    void fetch(std::span<Hit> hits) const override {
-        std::copy_n(hits_.begin(), hits.size(), hits.begin());
-    }
-    void fetch(std::span<std::uint8_t> found) const override {
+    void fetch(std::span<Hit> hits) const { std::copy_n(hits_.begin(), hits.size(), hits.begin()); }
+    void fetch(std::span<std::uint8_t> found) const {
         std::copy_n(found_.begin(), found.size(), found.begin());
     }
-    [[nodiscard]] std::vector<KernelReport> kernels(bool /*any_hit*/) const override { return {}; }
+    [[nodiscard]] std::vector<KernelReport> kernels(bool /*any_hit*/) const { return {}; }
 
   private:
     template <TriangleTest Test, bool AnyHit> void with() {
@@ -80,10 +79,13 @@ class HostSide final : public RayTracer::Side {
 
 } // namespace
 
-std::unique_ptr<RayTracer::Side> make_host_side(const TreeViews& trees, CudaTree tree,
-                                                TriangleTest test) {
-    return std::make_unique<HostSide>(trees, tree, test);
-}
+struct RayTracer::Side {
+    std::variant<HostRays, DeviceRays> rays;
+
+    template <class Rays>
+    Side(std::in_place_type_t<Rays> which, const TreeViews& trees, CudaTree tree, TriangleTest test)
+        : rays(which, trees, tree, test) {}
+};
 
 RayTracer::RayTracer(RaySide side, const GeometryView& geometry, CudaTree tree, TriangleTest test,
                      int threads) {
@@ -97,7 +99,10 @@ RayTracer::RayTracer(RaySide side, const GeometryView& geometry, CudaTree tree, 
         stats_ = wide_.stats();
     }
     const auto start = Clock::now();
-    side_ = (side == RaySide::device ? make_device_side : make_host_side)(trees_, tree, test);
+    if (side == RaySide::device)
+        side_ = std::make_unique<Side>(std::in_place_type<DeviceRays>, trees_, tree, test);
+    else
+        side_ = std::make_unique<Side>(std::in_place_type<HostRays>, trees_, tree, test);
     upload_s_ = seconds_since(start);
 }
 
@@ -120,11 +125,21 @@ TraversalCounts RayTracer::count(std::span<const Ray> rays, bool any_hit) const 
     return tally.counts;
 }
 
-void RayTracer::load(std::span<const Ray> rays) { side_->load(rays); }
-double RayTracer::trace(bool any_hit) { return side_->trace(any_hit); }
-void RayTracer::fetch(std::span<Hit> hits) const { side_->fetch(hits); }
-void RayTracer::fetch(std::span<std::uint8_t> found) const { side_->fetch(found); }
-std::vector<KernelReport> RayTracer::kernels(bool any_hit) const { return side_->kernels(any_hit); }
+void RayTracer::load(std::span<const Ray> rays) {
+    std::visit([rays](auto& side) { side.load(rays); }, side_->rays);
+}
+double RayTracer::trace(bool any_hit) {
+    return std::visit([any_hit](auto& side) { return side.trace(any_hit); }, side_->rays);
+}
+void RayTracer::fetch(std::span<Hit> hits) const {
+    std::visit([hits](const auto& side) { side.fetch(hits); }, side_->rays);
+}
+void RayTracer::fetch(std::span<std::uint8_t> found) const {
+    std::visit([found](const auto& side) { side.fetch(found); }, side_->rays);
+}
+std::vector<KernelReport> RayTracer::kernels(bool any_hit) const {
+    return std::visit([any_hit](const auto& side) { return side.kernels(any_hit); }, side_->rays);
+}
 
 struct CudaIntersector::Locked {
     std::mutex mutex;

@@ -44,10 +44,9 @@ class RayTracer {
     /// What the kernel of closest or any-hit queries takes; nothing on the host.
     [[nodiscard]] std::vector<KernelReport> kernels(bool any_hit) const;
 
-    /// What each side implements.
-    class Side;
-
   private:
+    struct Side;
+
     SahTree binary_;
     CompressedTree wide_; ///< one of the two is empty
     TreeViews trees_;
