@@ -36,12 +36,12 @@ class Pages(unittest.TestCase):
         holder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(holder.cleanup)
         cls.folder = holder.name
-        shutil.copy(os.path.join(RESULTS, "stability-intel-xeon.json"), os.path.join(cls.folder, "stability.json"))
+        shutil.copy(os.path.join(RESULTS, "stability-amd-epyc-zen4.json"), os.path.join(cls.folder, "stability.json"))
         subprocess.run([sys.executable, os.path.join(TOOLS, "stability_src/write_page.py"), cls.folder], check=True)
-        shutil.copy(os.path.join(RESULTS, "stability-intel-xeon.html"), os.path.join(cls.folder, "committed.html"))
+        shutil.copy(os.path.join(RESULTS, "stability-amd-epyc-zen4.html"), os.path.join(cls.folder, "committed.html"))
         from chart_src.page import page  # which wants numpy
         with open(os.path.join(cls.folder, "chart.html"), "w", encoding="utf-8") as file:
-            file.write(page(json.loads(read(RESULTS, "chart-intel-xeon.json"))))
+            file.write(page(json.loads(read(RESULTS, "chart-amd-epyc-zen4.json"))))
         cls.browser = cls.enterClassContext(Browser(find_browser()))
 
     def show(self, name, screen="phone", dark=False):
