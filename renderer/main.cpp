@@ -73,10 +73,12 @@ bool chooses_cuda(const Options& options) {
     if (options.device == Device::cpu)
         return false;
     const bool validates = options.validate || options.validate_cuda;
+    const bool reuses = options.reuse.value_or(1) > 1;
     std::string why = validates            ? "cuda: rays are validated on the CPU"
                       : options.stop.any() ? "cuda: stops neither by error nor by time"
+                      : reuses             ? "cuda: pixels share no paths"
                                            : "cuda: needs --accel=sah";
-    if (options.accel == AccelKind::sah && !validates && !options.stop.any() &&
+    if (options.accel == AccelKind::sah && !validates && !options.stop.any() && !reuses &&
         cuda_available(&why))
         return true;
     if (options.device == Device::cuda)

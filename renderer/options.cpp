@@ -34,6 +34,7 @@ const Names<CudaSchedule> cuda_schedule_names{{"megakernel", CudaSchedule::megak
                                               {"wavefront", CudaSchedule::wavefront}};
 const Names<Estimator> estimator_names{
     {"mis", Estimator::mis}, {"light", Estimator::light}, {"bsdf", Estimator::bsdf}};
+const Names<int> reuse_names{{"1", 1}, {"2", 2}, {"4", 4}};
 const Names<HemisphereSampling> hemisphere_names{{"cosine", HemisphereSampling::cosine},
                                                  {"uniform", HemisphereSampling::uniform}};
 const Names<LightSampling> light_names{{"solid-angle", LightSampling::solid_angle},
@@ -203,6 +204,8 @@ void add_integrator_flags(CLI::App& app, Options& options) {
     add_count(app, "--rr-depth", options.rr_depth, 1, 1 << 30, "First depth that roulette may end");
     add_count(app, "--max-depth", options.max_depth, -1, 1 << 30,
               "Longest path in segments: 1 sees lights only, -1 has no limit");
+    add_choice(app, "--reuse", options.reuse, reuse_names,
+               "Pixels a side of blocks that share paths from the second vertex on [1: none]");
     add_choice(app, "--sampler", options.sampler, sampler_names, "Random numbers [the scene's]");
     add_count(app, "--spp", options.spp, 1, 0xffffffffll,
               "Samples per pixel, the bound with --target-error or --time-limit [the scene's; 2^24 "
@@ -282,6 +285,15 @@ void check_contradictions(const Options& options) {
         throw CLI::ValidationError(options.replay_all ? "--replay-all" : "--replay-file",
                                    "needs --validate");
     check_stop_flags(options);
+    if (options.reuse.value_or(1) > 1) {
+        if (options.device == Device::cuda)
+            throw CLI::ValidationError("--reuse", "needs --device=cpu");
+        if (options.validate_cuda)
+            throw CLI::ValidationError("--validate", "cuda shares no paths (--reuse)");
+        if (options.stop.target_error > 0)
+            throw CLI::ValidationError(
+                "--reuse", "contradicts --target-error: pixels of a block need as many samples");
+    }
     if (options.quiet && options.explain)
         throw CLI::ValidationError("--explain", "contradicts --quiet");
 }
@@ -340,6 +352,7 @@ void apply_options(const Options& options, Scene& scene) {
     override_with(options.roulette_constant, scene.path.roulette_constant);
     override_with(options.rr_depth, scene.path.rr_depth);
     override_with(options.max_depth, scene.path.max_depth);
+    override_with(options.reuse, scene.path.reuse);
     override_with(options.sampler, scene.sampler.kind);
     if (options.stop.any())
         scene.sampler.spp = spp_without_bound;

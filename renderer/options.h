@@ -28,7 +28,7 @@ struct Options {
     std::optional<LightSampling> light_sampling;
     std::optional<RouletteKind> roulette;
     std::optional<float> roulette_constant;
-    std::optional<int> rr_depth, max_depth;
+    std::optional<int> rr_depth, max_depth, reuse;
     std::optional<SamplerKind> sampler;
     std::optional<std::uint32_t> spp;
     std::optional<std::uint64_t> seed;

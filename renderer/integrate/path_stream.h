@@ -9,6 +9,7 @@
 #include "accel/intersector.h"
 #include "renderer/integrate/film.h"
 #include "renderer/integrate/lane_loops.h"
+#include "renderer/integrate/path_sharing.h"
 
 #include <memory>
 #include <span>
@@ -21,9 +22,14 @@ template <Features F> class PathStream {
     /// All must outlive it.
     PathStream(const RenderJob& job, const Intersector& intersector)
         : job_(job), intersector_(intersector), steps_(job.scene, job.path),
-          lanes_(std::make_unique<PathLanes>()) {}
+          lanes_(std::make_unique<PathLanes>()),
+          sharing_(job.path.reuse > 1 ? std::make_unique<PathSharing>() : nullptr) {
+        if (sharing_)
+            sharing_->clear(max_lanes);
+    }
 
     [[nodiscard]] bool full() const { return count_ == max_lanes; }
+    [[nodiscard]] std::size_t room() const { return max_lanes - count_; }
 
     /// Adds the path of sample `index` of pixel (x, y) to the batch, which must not be full.
     void add(int x, int y, std::uint32_t index) {
@@ -32,6 +38,9 @@ template <Features F> class PathStream {
         lanes_->first_sample[count_] = index;
         ++count_;
     }
+
+    /// With job.path.reuse: the paths added since the last call are one of each pixel of a block.
+    void end_group() { sharing_->end_group(count_); }
 
     /// Traces the batch, adds the samples to their pixels in the order in which they came, and
     /// starts an empty one.
@@ -49,8 +58,12 @@ template <Features F> class PathStream {
             if (steps_.uses_light_group(depth))
                 draw_numbers(*lanes_, job_.sampler, light_group(depth), living, lanes_->light_u);
             if (steps_.samples_lights())
-                counts.shadow += add_direct_light(living);
+                counts.shadow += add_direct_light(living, depth);
             living = scatter(living, depth);
+        }
+        if (sharing_) {
+            counts.shadow += sharing_->share(intersector_, job_.path.hemisphere, *lanes_);
+            sharing_->clear(count_);
         }
         for (std::size_t i = 0; i < count_; ++i)
             film.pixel(lanes_->pixel_x[i], lanes_->pixel_y[i])
@@ -85,6 +98,23 @@ template <Features F> class PathStream {
         if constexpr (F.smooth_normals)
             l.shading.set(i, v.shading);
         l.front[i] = v.front ? 1 : 0;
+    }
+
+    /// Adds what a path finds at the vertex of this depth: radiance that the vertex emits towards
+    /// the last one, or that it reflects there.
+    void add_emitted(std::size_t slot, Rgb radiance, int depth) {
+        if (sharing_ && depth > 2)
+            sharing_->add(slot, radiance);
+        else
+            lanes_->radiance.set(
+                slot, lanes_->radiance[slot] +
+                          (sharing_ && depth == 2 ? sharing_->own(slot) * radiance : radiance));
+    }
+    void add_reflected(std::size_t slot, Rgb radiance, int depth) {
+        if (sharing_ && depth > 1)
+            sharing_->add(slot, radiance);
+        else
+            lanes_->radiance.set(slot, lanes_->radiance[slot] + radiance);
     }
 
     /// Camera rays.
@@ -124,8 +154,7 @@ template <Features F> class PathStream {
                 path.from.normal = l.geometric[i];
             if (!hit.valid()) {
                 if constexpr (F.environment)
-                    l.radiance.set(l.slot[i],
-                                   l.radiance[l.slot[i]] + steps_.environment(path, depth));
+                    add_emitted(l.slot[i], steps_.environment(path, depth), depth);
                 continue;
             }
             l.ray[n] = static_cast<std::uint32_t>(r);
@@ -148,6 +177,9 @@ template <Features F> class PathStream {
         }
         if constexpr (flat)
             interact(n);
+        if (sharing_ && depth == 2)
+            for (std::size_t i = 0; i < n; ++i)
+                sharing_->reach_second(l, i, !F.smooth_normals || !has_normals(l.surface[i]));
         return n;
     }
 
@@ -188,8 +220,7 @@ template <Features F> class PathStream {
         for (std::size_t i = 0; i < n; ++i) {
             const std::uint32_t surface = l.surface[i];
             if (job_.scene.surface_lights[surface].first != invalid_id)
-                l.radiance.set(l.slot[i], l.radiance[l.slot[i]] +
-                                              steps_.emission(path_of(i), vertex_of(i), depth));
+                add_emitted(l.slot[i], steps_.emission(path_of(i), vertex_of(i), depth), depth);
             const std::uint32_t material = steps_.material_of(surface, l.front[i] != 0);
             l.material[i] = material;
             l.reflectance.set(
@@ -198,7 +229,7 @@ template <Features F> class PathStream {
     }
 
     /// Next-event estimation for all; returns the number of shadow rays.
-    std::size_t add_direct_light(std::size_t n) {
+    std::size_t add_direct_light(std::size_t n, int depth) {
         PathLanes& l = *lanes_;
         if constexpr (one_rectangle) {
             sample_rectangle(l, job_.scene.lights[0], job_.path, n);
@@ -224,7 +255,7 @@ template <Features F> class PathStream {
         for (std::size_t r = 0; r < rays; ++r) {
             const std::size_t i = l.source[r];
             if (l.blocked[r] == 0)
-                l.radiance.set(l.slot[i], l.radiance[l.slot[i]] + l.light[i]);
+                add_reflected(l.slot[i], l.light[i], depth);
         }
         return rays;
     }
@@ -249,17 +280,26 @@ template <Features F> class PathStream {
     /// New directions. Returns how many paths go on; their rays are closed up.
     std::size_t scatter(std::size_t n, int depth) {
         PathLanes& l = *lanes_;
-        scatter_lanes(l, F.smooth_normals ? l.shading : l.geometric, job_.path.hemisphere,
-                      first_of_direction(depth), n);
+        const Vec3Lanes& shading = F.smooth_normals ? l.shading : l.geometric;
+        scatter_lanes(l, shading, job_.path.hemisphere, first_of_direction(depth), n);
         std::size_t rays = 0;
         for (std::size_t i = 0; i < n; ++i) {
+            const bool shared = sharing_ && depth == 1;
+            if (shared)
+                sharing_->leave_first(l, shading, i);
             if (l.flag[i] == 0)
                 continue;
+            const Rgb own = l.throughput[i];
             if (steps_.roulette_plays(depth)) {
-                Rgb throughput = l.throughput[i];
+                Rgb throughput = own;
                 if (!steps_.survives(throughput, depth, l.light_u.x[3][i]))
                     continue;
                 l.throughput.set(i, throughput);
+            }
+            if (shared) { // roulette's share stays with what is shared
+                const float rest = max_component(l.throughput[i]) / max_component(own);
+                sharing_->set_own(l.slot[i], own);
+                l.throughput.set(i, {rest, rest, rest});
             }
             l.rays[rays] = {l.next_origin[i], 0, l.next_direction[i], infinity};
             l.source[rays] = static_cast<std::uint32_t>(i);
@@ -268,10 +308,16 @@ template <Features F> class PathStream {
         return rays;
     }
 
+    [[nodiscard]] bool has_normals(std::uint32_t surface) const {
+        const auto& normals = job_.scene.normals; // of meshes; spheres come after them
+        return surface < normals.size() && !normals[surface].empty();
+    }
+
     const RenderJob& job_;
     const Intersector& intersector_;
     PathSteps<F> steps_;
     std::unique_ptr<PathLanes> lanes_;
+    std::unique_ptr<PathSharing> sharing_; ///< null: each pixel has its paths for itself
     std::size_t count_ = 0;
 };
 

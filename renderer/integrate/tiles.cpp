@@ -70,8 +70,26 @@ RayCounts render_tile(const RenderJob& job, const Intersector& intersector, cons
     const Tile& tile = work.tile;
     RayCounts counts;
     PathStream<F> stream(job, intersector);
+    const int reuse = job.path.reuse;
+    const auto add_sharing = [&](int x0, int y0, std::uint32_t first, std::uint32_t end) {
+        const int x1 = std::min(x0 + reuse, tile.x1), y1 = std::min(y0 + reuse, tile.y1);
+        for (std::uint32_t s = first; s < end; ++s) {
+            if (stream.room() < max_sharing)
+                stream.trace(film, counts);
+            for (int y = y0; y < y1; ++y)
+                for (int x = x0; x < x1; ++x)
+                    stream.add(x, y, s);
+            stream.end_group();
+        }
+    };
     const auto add_block = [&](int x0, int y0, std::uint32_t first) {
         const std::uint32_t end = first + std::min(samples_in_block, work.samples.end - first);
+        if (reuse > 1) {
+            for (int y = y0; y < std::min(y0 + block_size, tile.y1); y += reuse)
+                for (int x = x0; x < std::min(x0 + block_size, tile.x1); x += reuse)
+                    add_sharing(x, y, first, end);
+            return end;
+        }
         for (int y = y0; y < std::min(y0 + block_size, tile.y1); ++y)
             for (int x = x0; x < std::min(x0 + block_size, tile.x1); ++x) {
                 if (!work.wants(x, y))

@@ -42,6 +42,9 @@ struct PathSettings {
     LightSampling light_sampling = LightSampling::solid_angle;
     RouletteKind roulette = RouletteKind::throughput;
     float roulette_constant = 0.5f; ///< probability to go on, RouletteKind::constant only
+    /// Side, in pixels, of the blocks that share paths from their second vertices on: 1 (none), 2
+    /// or 4. Blocks are counted from the crop's corner. On the CPU, in streams only.
+    int reuse = 1;
 };
 
 } // namespace plumb
