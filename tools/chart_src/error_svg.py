@@ -39,7 +39,8 @@ class Scale:
 def short(name):
     """A method's name where there is little room."""
     key, _, value = name.partition("=")
-    return {"rr": f"RR {value}", "estimator": f"{value} only", "light-sampling": f"light {value}"}.get(key, value or name)
+    return {"rr": f"RR {value}", "estimator": f"{value} only", "light-sampling": f"light {value}",
+            "reuse": f"reuse {value}"}.get(key, value or name)
 
 
 def spread(wanted, low, high):

@@ -10,6 +10,7 @@ CHOICES = {
     "light-sampling": ("solid-angle", "area"),
     "sampler": ("sobol", "independent"),
     "rr": ("throughput", "none", "constant:0.8"),
+    "reuse": ("1", "2", "4"),
     "device": ("cpu", "cuda"),
 }
 NAMED = {

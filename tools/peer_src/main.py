@@ -23,6 +23,8 @@ def parse(arguments):
     parser.add_argument("--seeds", type=int, default=5, help="runs of each [%(default)s]")
     parser.add_argument("--variant", default="llvm_ad_rgb", help="of Mitsuba [%(default)s]")
     parser.add_argument("--sampler", default="multijitter", help="of Mitsuba [%(default)s]")
+    parser.add_argument("--reuse", default="1", choices=("1", "2", "4"),
+                        help="pixels a side of our blocks that share paths [%(default)s]")
     parser.add_argument("--reference", metavar="FILE", help="converged picture, PFM; else both renderers' mean")
     parser.add_argument("--reference-spp", type=int, default=4096, help="without --reference [%(default)s]")
     parser.add_argument("--renderer", default=os.path.join(ROOT, "build", "bin", "renderer"))
@@ -43,15 +45,15 @@ class Plumbline:
     name = "plumbline"
 
     def __init__(self, options):
-        self.program, self.scene = options.renderer, options.scene
+        self.program, self.scene, self.reuse = options.renderer, options.scene, options.reuse
 
     def render(self, spp, seed):
         """Picture and seconds of rendering. By a PFM: Mitsuba's own reader stands still on one core."""
         from chart_src.measure import read_pfm
         with tempfile.TemporaryDirectory() as folder:
             picture, stats = os.path.join(folder, "a.pfm"), os.path.join(folder, "a.json")
-            subprocess.run([self.program, "-q", "--threads", "1", "--sampler", "sobol", "--spp", str(spp),
-                            "--seed", str(seed), "--stats", stats, "-o", picture, self.scene], check=True)
+            subprocess.run([self.program, "-q", "--threads", "1", "--sampler", "sobol", "--reuse", self.reuse,
+                            "--spp", str(spp), "--seed", str(seed), "--stats", stats, "-o", picture, self.scene], check=True)
             with open(stats, encoding="utf-8") as file:
                 return read_pfm(picture), json.load(file)["render_s"]
 
@@ -129,7 +131,7 @@ def main(arguments):
 
     result = measure([Plumbline(options), Mitsuba(mi, dr, np, options)], options)
     result = {"scene": os.path.basename(options.scene), "mitsuba": mi.__version__,
-              "variant": options.variant, "sampler": options.sampler, **result}
+              "variant": options.variant, "sampler": options.sampler, "reuse": int(options.reuse), **result}
     if options.json:
         partial = options.json + ".part"
         with open(partial, "w", encoding="utf-8") as file:
