@@ -3,6 +3,12 @@
 #include <utility>
 
 namespace plumb {
+namespace {
+
+/// Vertices nearer than that share nothing: the sum of a block's densities has to be finite.
+constexpr float largest_jacobian = 1e36f;
+
+} // namespace
 
 void PathSharing::clear(std::size_t count) {
     groups_ = 0;
@@ -48,6 +54,8 @@ PathSharing::Connection PathSharing::connect(std::size_t k, std::size_t t,
     const float inverse = 1 / std::sqrt(squared);
     const float jacobian = arriving * inverse / squared;
     const Vec3 direction{0, 0, leaving * inverse};
+    if (!(jacobian < largest_jacobian))
+        return {0, 0};
     return {diffuse_pdf(direction, hemisphere) * jacobian, direction.z * inv_pi * jacobian};
 }
 

@@ -82,8 +82,8 @@ struct Lanes {
         return count;
     }
 
-    static constexpr std::uint32_t lane_bits = 7, no_key = 0xffffffff;
-    /// Keys of the lanes whose bit is set (OneLevelRay): distances, which are not negative, with
+    static constexpr std::uint32_t lane_bits = 7;
+    /// Keys of the lanes whose bit is set (LeafQueues): distances, which are not negative, with
     /// the lane in their last bits. The key of others is a NaN.
     static void store_keys(std::uint32_t* to, Floats near, unsigned mask) {
         const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
@@ -96,7 +96,7 @@ struct Lanes {
         _mm256_store_si256(reinterpret_cast<__m256i*>(to),
                            _mm256_or_si256(_mm256_or_si256(distance, lane), out));
     }
-    /// The least key, in whose place no_key is left.
+    /// The least key, in whose place a NaN above all others is left.
     static std::uint32_t take_least(std::uint32_t* keys) {
         const __m256i all = _mm256_load_si256(reinterpret_cast<const __m256i*>(keys));
         __m256i least = _mm256_min_epu32(all, _mm256_permute2x128_si256(all, all, 1));
