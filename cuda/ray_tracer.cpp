@@ -20,8 +20,9 @@ double seconds_since(Clock::time_point start) {
 /// Counts what a traversal touches.
 struct Tally {
     TraversalCounts counts;
-    void node() { ++counts.nodes; }
-    void primitive() { ++counts.triangles; }
+    void node(std::uint32_t /*index*/) { ++counts.nodes; }
+    void leaf(ChildRef leaf) { counts.triangles += leaf.count(); }
+    void primitive(std::uint32_t /*index*/) { ++counts.triangles; }
 };
 
 /// The kernel's body in a loop: what DeviceRays does, on the host.

@@ -5,12 +5,15 @@
 /// the signs of the ray's direction; what is still to be done of one node is a word of bits. The
 /// hit is the same for any order (see sah_traverse.h).
 ///
-/// A plane's distance is q A + B with A = step inv and B = (origin - ray origin) inv, a multiply
-/// and an add for each of 48 planes. With u = 2^-24 it errs by at most 3u |B| + 2u |q A| from the
-/// exact distance, slab_interval of the original box by 2u of that, and 35u on its padded far side.
-/// Near planes are moved nearer by 8u (|B| + 256 |A|) and far ones farther by 48u of the same, so
-/// no box is passed over that slab_interval enters. Rays and scenes of extreme size, and rays
-/// parallel to an axis, take slab_interval itself.
+/// A plane's distance is q a + b with a = step inv and b = (origin - ray origin) inv. A byte q
+/// becomes a number by being put between others: v = 1 + q 2^-15 is one instruction of a device,
+/// where converting q takes two or three. So the distance is v A + B with A = 2^15 a and B = b - A,
+/// for each of 48 planes. With u = 2^-24, b errs by 3u |b| and q a by 2u |q a|, B by u (|b| + |A|),
+/// the product by 1.01u |A| and the sum by u (|b| + |q a|): at most 5u |b| + 2.1u |A| together.
+/// slab_interval of the original box errs by 2u of the distance, and 35u on its padded far side.
+/// Near planes are moved nearer by 12u |b| + 6u |A|, 1 % of a step of the grid, and far ones
+/// farther by 60u |b| + 6u |A|, so no box is passed over that slab_interval enters. Rays and scenes
+/// of extreme size, and rays parallel to an axis, take slab_interval itself.
 #pragma once
 
 #include "accel/math/bits.h"
@@ -29,20 +32,33 @@ RT_HD inline float about_fused(float a, float b, float c) {
 #endif
 }
 
-/// The larger and the smaller of two numbers, neither of which is a NaN: one instruction on a
-/// device, where a ? : is two.
-RT_HD inline float larger(float a, float b) {
+/// 1 + q 2^-15 for byte i of a word, exactly. `one`: the bits of 1.0f.
+RT_HD inline float with_byte(std::uint32_t word, std::uint32_t i, std::uint32_t one) {
 #ifdef __CUDA_ARCH__
-    return fmaxf(a, b);
+    return std::bit_cast<float>(__byte_perm(word, one, 0x7604u | i << 4));
 #else
-    return max(a, b);
+    return std::bit_cast<float>(one | ((word >> (8 * i)) & 255u) << 8);
 #endif
 }
-RT_HD inline float smaller(float a, float b) {
+
+/// The largest of `from` >= 0 and three numbers, and the smallest of `to` >= 0 and three, none of
+/// them a NaN. A device compares their bits as integers, three in an instruction: where all is
+/// positive that is the order of the numbers, and a negative end of an interval that starts at 0 or
+/// later stays negative, or becomes -0, which only visits a box more.
+RT_HD inline float largest(float from, float x, float y, float z) {
 #ifdef __CUDA_ARCH__
-    return fminf(a, b);
+    const auto bits = [](float a) { return std::bit_cast<std::int32_t>(a); };
+    return std::bit_cast<float>(__vimax3_s32(::max(bits(from), bits(x)), bits(y), bits(z)));
 #else
-    return min(a, b);
+    return max(max(from, x), max(y, z));
+#endif
+}
+RT_HD inline float smallest(float to, float x, float y, float z) {
+#ifdef __CUDA_ARCH__
+    const auto bits = [](float a) { return std::bit_cast<std::int32_t>(a); };
+    return std::bit_cast<float>(__vimin3_s32(::min(bits(to), bits(x)), bits(y), bits(z)));
+#else
+    return min(min(to, x), min(y, z));
 #endif
 }
 
@@ -65,17 +81,20 @@ RT_HD inline bool is_plain(const Ray& ray, float reach) {
 /// Tests the boxes of a node.
 class CompressedTest {
   public:
-    RT_HD CompressedTest(const PreparedRay& ray, bool plain)
-        : slab_(ray.slab), tmin_(ray.tmin), tmax_(ray.tmax), plain_(plain),
+    RT_HD CompressedTest(const PreparedRay& ray, bool plain, std::uint32_t one)
+        : slab_(ray.slab), tmin_(ray.tmin), tmax_(ray.tmax), plain_(plain), one_(one),
           turn_(7u ^ ((ray.slab.negative[0] ? 1u : 0u) | (ray.slab.negative[1] ? 2u : 0u) |
                       (ray.slab.negative[2] ? 4u : 0u))) {}
 
     RT_HD void limit(float tmax) { tmax_ = tmax; }
     [[nodiscard]] RT_HD std::uint32_t turn() const { return turn_; }
 
-    /// Bits 0 to 23: primitives of the leaves that are entered; 24 to 31: as in NodeGroup.
-    [[nodiscard]] RT_HD std::uint32_t operator()(const CompressedNode& node) const {
-        return plain_ ? plain(node) : careful(node);
+    /// Bits 0 to 23: primitives of the leaves that are entered; 24 to 31: as in NodeGroup. `node`
+    /// and `in_memory` are the same: a loop over the slots of a copy would keep it out of
+    /// registers.
+    [[nodiscard]] RT_HD std::uint32_t operator()(const CompressedNode& node,
+                                                 const CompressedNode& in_memory) const {
+        return plain_ ? plain(node) : careful(in_memory);
     }
 
   private:
@@ -99,11 +118,12 @@ class CompressedTest {
         for (std::uint32_t axis = 0; axis < 3; ++axis) {
             const auto i = static_cast<int>(axis);
             const float inverse = slab_.inv_direction[i];
-            a[axis] = node.step(axis) * inverse;
+            a[axis] = node.step(axis) * (0x1p15f * inverse);
             const float b = (node.origin[axis] - slab_.origin[i]) * inverse;
-            const float size = std::fabs(b) + 256 * std::fabs(a[axis]);
-            near_b[axis] = b - (8 * unit_roundoff * size + 1e-36f); // products may underflow
-            far_b[axis] = b + (48 * unit_roundoff * size + 1e-36f);
+            const float moved = b - a[axis];
+            const float least = 6 * unit_roundoff * std::fabs(a[axis]) + 1e-36f; // for underflow
+            near_b[axis] = moved - (12 * unit_roundoff * std::fabs(b) + least);
+            far_b[axis] = moved + (60 * unit_roundoff * std::fabs(b) + least);
         }
         std::uint32_t hits = 0;
         for (std::uint32_t half = 0; half < 2; ++half) {
@@ -115,15 +135,17 @@ class CompressedTest {
                 far_word[axis] = negative ? node.lower[axis][half] : node.upper[axis][half];
             }
             for (std::uint32_t i = 0; i < 4; ++i) {
-                float near = tmin_, far = tmax_;
+                float near[3], far[3];
                 for (int axis = 0; axis < 3; ++axis) {
-                    const auto q = [i](std::uint32_t word) {
-                        return static_cast<float>((word >> (8 * i)) & 255u);
-                    };
-                    near = larger(near, about_fused(q(near_word[axis]), a[axis], near_b[axis]));
-                    far = smaller(far, about_fused(q(far_word[axis]), a[axis], far_b[axis]));
+                    near[axis] =
+                        about_fused(with_byte(near_word[axis], i, one_), a[axis], near_b[axis]);
+                    far[axis] =
+                        about_fused(with_byte(far_word[axis], i, one_), a[axis], far_b[axis]);
                 }
-                hits |= near <= far ? marks.bits(i) : 0u;
+                hits |= largest(tmin_, near[0], near[1], near[2]) <=
+                                smallest(tmax_, far[0], far[1], far[2])
+                            ? marks.bits(i)
+                            : 0u;
             }
         }
         return hits;
@@ -142,7 +164,7 @@ class CompressedTest {
     SlabRay slab_;
     float tmin_, tmax_;
     bool plain_;
-    std::uint32_t turn_;
+    std::uint32_t one_, turn_;
 };
 
 template <TriangleTest Test>
@@ -159,35 +181,40 @@ template <TriangleTest Test, class Visit, class Tally>
 RT_HD inline bool visit_hits(const CompressedView& view, const Ray& ray, const float& best_t,
                              Tally& tally, Visit&& visit) {
     const PreparedRay prepared(ray);
-    CompressedTest test(prepared, is_plain(ray, view.reach));
+    CompressedTest test(prepared, is_plain(ray, view.reach), view.one);
     NodeGroup stack[compressed_max_depth];
     int size = 0;
     NodeGroup group{0, 0x80000000u}; // the root: no slot before it holds a node
-    for (;;) {
+    // One way back, so that the lanes of a warp meet there: with a `continue` for lanes whose group
+    // is not done those that take from the stack would wait for them to come to their own end.
+    for (bool goes_on = true; goes_on;) {
         const std::uint32_t place = highest_one(group.bits);
         const std::uint32_t slot = (place - 24) ^ test.turn();
         const std::uint32_t before = ones(group.bits & 0xffu & ((1u << slot) - 1));
         group.bits &= ~(1u << place);
-        const CompressedNode node = view.nodes[group.first + before];
+        const std::uint32_t index = group.first + before;
+        const CompressedNode node = view.nodes[index]; // whole: five wide loads
         if ((group.bits & NodeGroup::todo) != 0)
             stack[size++] = group;
-        tally.node();
-        const std::uint32_t hits = test(node);
+        tally.node(index);
+        const std::uint32_t hits = test(node, view.nodes[index]);
         group = {node.first_child, (hits & NodeGroup::todo) | node.inner_mask()};
         for (std::uint32_t left = hits & ~NodeGroup::todo; left != 0; left &= left - 1) {
-            const CompressedPrimitive p = view.primitives[node.first_primitive + lowest_one(left)];
+            const std::uint32_t primitive = node.first_primitive + lowest_one(left);
+            const CompressedPrimitive p = view.primitives[primitive];
             PrimitiveHit hit;
-            tally.primitive();
+            tally.primitive(primitive);
             if (intersect<Test>(prepared, p, best_t, hit) && visit(hit, p))
                 return true;
             test.limit(best_t);
         }
         if ((group.bits & NodeGroup::todo) == 0) {
-            if (size == 0)
-                return false;
-            group = stack[--size];
+            goes_on = size > 0;
+            if (goes_on)
+                group = stack[--size];
         }
     }
+    return false;
 }
 
 } // namespace detail

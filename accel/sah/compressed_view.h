@@ -70,6 +70,9 @@ struct CompressedView {
     const CompressedPrimitive* primitives = nullptr;
     std::uint32_t node_count = 0, primitive_count = 0;
     float reach = 0; ///< largest absolute coordinate of the root's box
+    /// The bits of 1.0f. A compiler that knew them would put them into the instruction that places
+    /// a byte among them, and the place of the byte into a register before each.
+    std::uint32_t one = 0x3f800000u;
 };
 static_assert(std::is_trivially_copyable_v<CompressedView>);
 

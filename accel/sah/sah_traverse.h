@@ -1,23 +1,40 @@
 /// \file  Closest-hit and any-hit traversal of the SAH tree, single source for host and device.
 ///
-/// Boxes are culled with near <= best t inclusive, and every hit lies in the slab interval of its
-/// primitive's own box (settle), so the hit returned is the same for any tree and any order.
+/// Nodes are tested down to the next leaf in a loop of their own: on a device the lanes of a warp
+/// meet at leaves (Aila and Laine 2009, "while-while"), where going on as each likes takes up to
+/// twice the instructions (tools/warps). Boxes are culled with near <= best t inclusive, and every
+/// hit lies in the slab interval of its primitive's own box (settle), so the hit returned is the
+/// same for any tree and any order.
 #pragma once
 
 #include "accel/sah/child_test.h"
 
 namespace plumb {
 
-/// What a traversal tells of its steps: nothing. Tests and roof-line counts pass one that counts.
+/// What a traversal tells of its steps, by their places in the tree's arrays: nothing. Tests,
+/// counts and models pass one that listens.
 struct NoTally {
-    RT_HD void node() {}
-    RT_HD void primitive() {}
+    RT_HD void node(std::uint32_t /*index*/) {}
+    RT_HD void leaf(ChildRef /*leaf*/) {}            ///< of SahView
+    RT_HD void primitive(std::uint32_t /*index*/) {} ///< of CompressedView
 };
 
 namespace detail {
 
+/// Takes the last entry of a stack that is_wanted(entry); false where there is none. Array and size
+/// apart: a device keeps the size in a register.
+template <class Entry, class Wanted>
+RT_HD inline bool pop(const Entry* stack, int& size, Entry& entry, Wanted&& is_wanted) {
+    while (size > 0) {
+        entry = stack[--size];
+        if (is_wanted(entry))
+            return true;
+    }
+    return false;
+}
+
 /// No member initialisers: a stack of these must cost nothing to declare.
-struct StackEntry {
+struct NearChild {
     ChildRef child;
     float near;
 };
@@ -58,12 +75,6 @@ RT_HD inline bool visit_leaf(const SahView& view, ChildRef leaf, const PreparedR
     return false;
 }
 
-/// A leaf's primitives one by one, whichever ends the visit.
-template <class Tally> RT_HD inline void tally_leaf(ChildRef leaf, Tally& tally) {
-    for (std::uint32_t i = 0; i < leaf.count(); ++i)
-        tally.primitive();
-}
-
 } // namespace detail
 
 /// Closest hit of one ray. An invalid ray misses.
@@ -73,51 +84,47 @@ template <TriangleTest Test, class Tally = NoTally>
         return {};
     const PreparedRay prepared(ray);
     ChildTest test(prepared);
-    detail::StackEntry stack[sah_max_depth];
+    detail::NearChild stack[sah_max_depth];
     int size = 0;
     Hit best;
     best.t = ray.tmax;
-    ChildRef current = ChildRef::node(0);
-    for (;;) {
-        if (!current.is_leaf()) {
-            const SahNode node = view.nodes[current.first]; // whole: four wide loads
-            tally.node();
+    detail::NearChild entry{ChildRef::node(0), 0};
+    const auto is_closer = [&](const detail::NearChild& e) { return e.near <= best.t; };
+    for (bool goes_on = true; goes_on;) {
+        while (goes_on && !entry.child.is_leaf()) {
+            const SahNode node = view.nodes[entry.child.first]; // whole: four wide loads
+            tally.node(entry.child.first);
             const ChildOverlap overlap = test(node);
-            if (overlap.mask != 0) {
-                // The nearer child now, the other later.
-                if (overlap.mask == 1) {
-                    current = node.child[0];
-                } else if (overlap.mask == 2) {
-                    current = node.child[1];
-                } else if (overlap.near[1] < overlap.near[0]) {
-                    stack[size++] = {node.child[0], overlap.near[0]};
-                    current = node.child[1];
-                } else {
-                    stack[size++] = {node.child[1], overlap.near[1]};
-                    current = node.child[0];
-                }
-                continue;
+            // The nearer child now, the other later.
+            if (overlap.mask == 0) {
+                goes_on = detail::pop(stack, size, entry, is_closer);
+            } else if (overlap.mask == 1) {
+                entry.child = node.child[0];
+            } else if (overlap.mask == 2) {
+                entry.child = node.child[1];
+            } else if (overlap.near[1] < overlap.near[0]) {
+                stack[size++] = {node.child[0], overlap.near[0]};
+                entry.child = node.child[1];
+            } else {
+                stack[size++] = {node.child[1], overlap.near[1]};
+                entry.child = node.child[0];
             }
-        } else {
-            const auto keep = [&](const PrimitiveHit& hit, std::uint32_t geometry,
-                                  std::uint32_t primitive) {
+        }
+        if (!goes_on)
+            break;
+        tally.leaf(entry.child);
+        detail::visit_leaf<Test>(
+            view, entry.child, prepared, best.t,
+            [&](const PrimitiveHit& hit, std::uint32_t geometry, std::uint32_t primitive) {
                 detail::keep_closer(hit, geometry, primitive, best);
                 return false;
-            };
-            detail::tally_leaf(current, tally);
-            detail::visit_leaf<Test>(view, current, prepared, best.t, keep);
-            test.limit(best.t);
-        }
-        do {
-            if (size == 0) {
-                if (!best.valid())
-                    best.t = infinity;
-                return best;
-            }
-            --size;
-        } while (stack[size].near > best.t);
-        current = stack[size].child;
+            });
+        test.limit(best.t);
+        goes_on = detail::pop(stack, size, entry, is_closer);
     }
+    if (!best.valid())
+        best.t = infinity;
+    return best;
 }
 
 /// Whether any hit exists; equal to closest(view, ray).valid().
@@ -130,27 +137,28 @@ template <TriangleTest Test, class Tally = NoTally>
     ChildRef stack[sah_max_depth];
     int size = 0;
     ChildRef current = ChildRef::node(0);
-    for (;;) {
-        if (!current.is_leaf()) {
+    const auto any_child = [](ChildRef) { return true; };
+    for (bool goes_on = true; goes_on;) {
+        while (goes_on && !current.is_leaf()) {
             const SahNode node = view.nodes[current.first]; // whole: four wide loads
-            tally.node();
+            tally.node(current.first);
             const unsigned mask = test(node).mask;
-            if (mask != 0) {
-                if (mask == 3)
-                    stack[size++] = node.child[1];
+            if (mask == 3)
+                stack[size++] = node.child[1];
+            if (mask == 0)
+                goes_on = detail::pop(stack, size, current, any_child);
+            else
                 current = mask == 2 ? node.child[1] : node.child[0];
-                continue;
-            }
-        } else {
-            detail::tally_leaf(current, tally);
-            const auto any = [](const PrimitiveHit&, std::uint32_t, std::uint32_t) { return true; };
-            if (detail::visit_leaf<Test>(view, current, prepared, ray.tmax, any))
-                return true;
         }
-        if (size == 0)
-            return false;
-        current = stack[--size];
+        if (!goes_on)
+            break;
+        tally.leaf(current);
+        const auto any = [](const PrimitiveHit&, std::uint32_t, std::uint32_t) { return true; };
+        if (detail::visit_leaf<Test>(view, current, prepared, ray.tmax, any))
+            return true;
+        goes_on = detail::pop(stack, size, current, any_child);
     }
+    return false;
 }
 
 } // namespace plumb

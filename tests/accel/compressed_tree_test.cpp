@@ -179,8 +179,8 @@ TEST(CompressNode, SlotsHaveTheLeastCostOfAllAssignments) {
 /// Counts the steps of a traversal.
 struct Steps {
     int nodes = 0, primitives = 0;
-    void node() { ++nodes; }
-    void primitive() { ++primitives; }
+    void node(std::uint32_t /*index*/) { ++nodes; }
+    void primitive(std::uint32_t /*index*/) { ++primitives; }
 };
 
 /// The same tree with every slot at the opposite corner: far children come first.
@@ -272,7 +272,9 @@ TEST(CompressedTraverse, EntersEveryBoxThatTheExactTestEnters) {
         const Vec3 target{(corner & 1u) != 0 ? aim.upper.x : aim.lower.x,
                           (corner & 2u) != 0 ? aim.upper.y : aim.lower.y,
                           (corner & 4u) != 0 ? aim.upper.z : aim.lower.z};
-        const Vec3 origin = (on_grid ? Vec3{} : base) + scale * random.point(-3, 3);
+        const float away =
+            i % 5 < 2 ? std::ldexp(3.0f, static_cast<int>(random.index(16))) : 3.0f; // tiny boxes
+        const Vec3 origin = (on_grid ? Vec3{} : base) + scale * random.point(-away, away);
         Ray ray{origin, 0, target - origin, infinity};
         if (i % 3 == 0)
             ray.direction = std::exp(random.uniform(-20, 20)) * ray.direction;
@@ -281,8 +283,9 @@ TEST(CompressedTraverse, EntersEveryBoxThatTheExactTestEnters) {
         if (!detail::is_plain(ray, 0x1p40f))
             continue;
         const PreparedRay prepared(ray);
-        const std::uint32_t hits = detail::CompressedTest(prepared, true)(node);
-        const std::uint32_t careful = detail::CompressedTest(prepared, false)(node);
+        const std::uint32_t one = CompressedView{}.one;
+        const std::uint32_t hits = detail::CompressedTest(prepared, true, one)(node, node);
+        const std::uint32_t careful = detail::CompressedTest(prepared, false, one)(node, node);
         for (std::uint32_t slot = 0; slot < compressed_width; ++slot) {
             const bool exact =
                 overlaps(slab_interval(prepared.slab, boxes[slot]), ray.tmin, ray.tmax);
