@@ -16,8 +16,16 @@ namespace {
 /// Pixels in work at a time: enough threads for any device, 60 MB of film.
 constexpr std::uint32_t chunk_pixels = 1u << 20;
 
-/// Paths in work at a time in a wavefront, 200 bytes each.
+/// Paths in work at a time: 12 bytes each in the megakernel, 250 in a wavefront.
 constexpr std::uint32_t wave_slots = 1u << 20;
+
+/// Launched at first: fills a device, and takes less than a second if paths are slow.
+constexpr std::uint32_t first_paths = 1u << 18;
+
+/// Slots for a chunk of so many pixels.
+std::uint32_t slots_for(std::size_t pixels) {
+    return std::max(wave_slots, static_cast<std::uint32_t>(pixels));
+}
 
 /// The job and its tree in one block of device memory.
 class PlacedJob {
@@ -73,28 +81,37 @@ class DeviceFilm {
 /// Runs batches by the megakernel: an executor of BatchRenderer.
 class DeviceExecutor : public DeviceFilm {
   public:
-    using DeviceFilm::DeviceFilm;
+    DeviceExecutor(const DeviceJob& device, PathKernel kernel, CudaTree tree, std::size_t pixels)
+        : DeviceFilm(device, kernel, tree, pixels), samples_(slots_for(pixels)) {
+        device_.samples = samples_.data();
+    }
 
     RayCounts run(const Batch& batch) {
-        device_.batch = batch;
-        launch_path_kernel(device_, kernel_, tree_);
+        in_waves(batch, static_cast<std::uint32_t>(samples_.size()), [&](const Batch& wave) {
+            device_.batch = wave;
+            launch_path_kernel(device_, kernel_, tree_);
+        });
         RT_CUDA_CHECK(cudaDeviceSynchronize());
         RayCounts counts;
         counts_.copy_to({&counts, 1});
         return counts;
     }
-    [[nodiscard]] std::size_t bytes() const { return film_.size() * sizeof(FilmPixel); }
+    [[nodiscard]] std::size_t bytes() const {
+        return film_.size() * sizeof(FilmPixel) + samples_.size() * sizeof(Rgb);
+    }
     [[nodiscard]] std::vector<KernelReport> kernels() const {
         return path_kernel_reports(kernel_, tree_);
     }
+
+  private:
+    DeviceBuffer<Rgb> samples_;
 };
 
 /// Runs batches by the wavefront: another, and the launcher of its WaveRunner.
 class DeviceWaves : public DeviceFilm {
   public:
     DeviceWaves(const DeviceJob& device, PathKernel kernel, CudaTree tree, std::size_t pixels)
-        : DeviceFilm(device, kernel, tree, pixels),
-          slots_(std::max(wave_slots, static_cast<std::uint32_t>(pixels))), paths_(slots_),
+        : DeviceFilm(device, kernel, tree, pixels), slots_(slots_for(pixels)), paths_(slots_),
           hits_(slots_), now_(slots_), next_(slots_), shadows_(slots_), counters_(1) {}
 
     void clear(std::uint32_t pixels) {
@@ -155,7 +172,7 @@ struct Work {
         Executor executor(device, kernel, tree, chunk);
         report.working_bytes = executor.bytes();
         report.kernels = executor.kernels();
-        return BatchRenderer(job, options, executor, stats).render(chunk);
+        return BatchRenderer(job, options, executor, stats, first_paths).render(chunk);
     }
 };
 

@@ -47,7 +47,7 @@ class HostBlock {
 struct HostGrid {
     std::uint32_t block_size = 128;
     std::uint32_t chunk_pixels = 1u << 14;
-    std::uint32_t wave_slots = 1u << 14; ///< wavefront: paths at a time
+    std::uint32_t wave_slots = 1u << 14; ///< paths at a time, if that is all pixels of a chunk
     std::uint32_t shuffle = 0; ///< 0: threads in order; else in another order for each number
 };
 
@@ -67,6 +67,13 @@ void run_grid_on_host(const HostGrid& grid, std::uint64_t items, Body&& body) {
          ++i, at = (at + step) % threads)
         body(GridPosition{static_cast<std::uint32_t>(at / shape.block_size),
                           static_cast<std::uint32_t>(at % shape.block_size), shape.block_size});
+}
+
+/// As many as are asked for, and one for each pixel of a chunk at least.
+[[nodiscard]] inline std::uint32_t slots_of(const HostGrid& grid, const DeviceJob& device) {
+    const auto pixels = static_cast<std::uint32_t>(device.job.crop.width) *
+                        static_cast<std::uint32_t>(device.job.crop.height);
+    return std::max(grid.wave_slots, std::min(grid.chunk_pixels, pixels));
 }
 
 /// Film and counters of a chunk in host memory, and the job that writes them.
@@ -97,27 +104,34 @@ class HostFilm {
 /// The megakernel: an executor of BatchRenderer.
 template <Features F, TriangleTest Test, CudaTree Tree> class HostExecutor : public HostFilm {
   public:
-    HostExecutor(const DeviceJob& device, const HostGrid& grid) : HostFilm(device), grid_(grid) {}
+    HostExecutor(const DeviceJob& device, const HostGrid& grid)
+        : HostFilm(device), grid_(grid), samples_(slots_of(grid, device)) {
+        device_.samples = samples_.data();
+    }
 
     RayCounts run(const Batch& batch) {
-        ++launches_;
-        device_.batch = batch;
-        run_grid_on_host(grid_, batch.pixel_count,
-                         [&](GridPosition at) { render_thread<F, Test, Tree>(device_, at); });
+        in_waves(batch, static_cast<std::uint32_t>(samples_.size()), [&](const Batch& wave) {
+            launches_ += 2;
+            device_.batch = wave;
+            run_grid_on_host(grid_, wave.slots(),
+                             [&](GridPosition at) { render_thread<F, Test, Tree>(device_, at); });
+            run_grid_on_host(grid_, wave.pixel_count,
+                             [&](GridPosition at) { add_samples_thread(device_, at); });
+        });
         return counts_;
     }
 
   private:
     HostGrid grid_;
+    std::vector<Rgb> samples_;
 };
 
 /// The wavefront: another, and the launcher of its WaveRunner.
 template <Features F, TriangleTest Test, CudaTree Tree> class HostWaves : public HostFilm {
   public:
     HostWaves(const DeviceJob& device, const HostGrid& grid)
-        : HostFilm(device), grid_(grid),
-          slots_(std::max(grid.wave_slots, std::min(grid.chunk_pixels, pixels_of(device)))),
-          paths_(slots_), hits_(slots_), now_(slots_), next_(slots_), shadows_(slots_) {}
+        : HostFilm(device), grid_(grid), slots_(slots_of(grid, device)), paths_(slots_),
+          hits_(slots_), now_(slots_), next_(slots_), shadows_(slots_) {}
 
     RayCounts run(const Batch& batch) {
         device_.batch = batch;
@@ -141,11 +155,6 @@ template <Features F, TriangleTest Test, CudaTree Tree> class HostWaves : public
     WaveCounters take_counters(const WaveJob& /*job*/) { return std::exchange(counters_, {}); }
 
   private:
-    static std::uint32_t pixels_of(const DeviceJob& device) {
-        return static_cast<std::uint32_t>(device.job.crop.width) *
-               static_cast<std::uint32_t>(device.job.crop.height);
-    }
-
     HostGrid grid_;
     std::uint32_t slots_;
     std::vector<PathState> paths_;

@@ -1,4 +1,5 @@
-/// \file  The path tracer as CUDA kernels, one a profile, triangle test and tree: a thread a pixel.
+/// \file  The path tracer as CUDA kernels, one a profile, triangle test and tree: a thread a
+/// sample.
 ///
 /// Only device code may come of the headers here: on the host, under nvcc, they would compile to
 /// other code than in the rest of the program.
@@ -16,6 +17,11 @@ __global__ void __launch_bounds__(threads_per_block)
     render_kernel(const __grid_constant__ DeviceJob device) {
     constexpr Features features = Box ? box_profile : full_profile;
     render_thread<features, Test, Tree>(device, GridPosition{blockIdx.x, threadIdx.x, blockDim.x});
+}
+
+__global__ void __launch_bounds__(threads_per_block)
+    add_samples_kernel(const __grid_constant__ DeviceJob device) {
+    add_samples_thread(device, GridPosition{blockIdx.x, threadIdx.x, blockDim.x});
 }
 static_assert(sizeof(DeviceJob) <= 4096, "the limit of a kernel's parameters");
 
@@ -39,10 +45,13 @@ Kernel kernel_of(PathKernel kind, CudaTree tree) {
 } // namespace
 
 void launch_path_kernel(const DeviceJob& device, PathKernel kind, CudaTree tree) {
-    const Kernel kernel = kernel_of(kind, tree);
-    const LaunchShape shape = shape_for(device.batch.pixel_count, threads_per_block);
-    kernel<<<shape.blocks, shape.block_size>>>(device);
-    RT_CUDA_CHECK(cudaGetLastError());
+    const auto launch = [&](Kernel kernel, std::uint32_t items) {
+        const LaunchShape shape = shape_for(items, threads_per_block);
+        kernel<<<shape.blocks, shape.block_size>>>(device);
+        RT_CUDA_CHECK(cudaGetLastError());
+    };
+    launch(kernel_of(kind, tree), device.batch.slots());
+    launch(add_samples_kernel, device.batch.pixel_count);
 }
 
 void check_path_kernel() {

@@ -6,8 +6,8 @@
 
 namespace plumb {
 
-/// Starts the megakernel for one batch; returns before it is done. Throws DeviceError where it
-/// cannot start.
+/// Starts the megakernel for one wave, and the sums of its pixels; returns before they are done.
+/// Throws DeviceError where they cannot start.
 void launch_path_kernel(const DeviceJob& device, PathKernel kind, CudaTree tree);
 
 /// Starts a stage of the wavefront, likewise.

@@ -18,6 +18,9 @@ namespace plumb {
 /// How many samples of each pixel the next launch takes, from how long the last one took.
 class SampleStep {
   public:
+    /// `first`: of the first launch, 1 or more.
+    explicit SampleStep(std::uint32_t first) : value_(first) {}
+
     [[nodiscard]] std::uint32_t value() const { return value_; }
 
     void measured(double seconds) {
@@ -29,7 +32,7 @@ class SampleStep {
 
   private:
     static constexpr double shortest_s = 0.05, longest_s = 0.2; ///< of a launch
-    std::uint32_t value_ = 1;
+    std::uint32_t value_;
 };
 
 namespace detail {
@@ -55,15 +58,19 @@ inline void store(std::span<const FilmPixel> pixels, const Batch& batch, Film& f
 /// stats.rays, samples, stopped_by and render_s.
 template <class Executor> class BatchRenderer {
   public:
+    /// `first_paths`: about so many are launched at first.
     BatchRenderer(const RenderJob& job, const RenderOptions& options, Executor& executor,
-                  RenderStats& stats)
-        : job_(job), options_(options), executor_(executor), stats_(stats) {}
+                  RenderStats& stats, std::uint32_t first_paths = 1)
+        : job_(job), options_(options), executor_(executor), stats_(stats),
+          pixels_(static_cast<std::uint64_t>(job.crop.width) *
+                  static_cast<std::uint64_t>(job.crop.height)),
+          step_(std::max(1u, first_paths / static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
+                                               pixels_, 1, first_paths)))) {}
 
     [[nodiscard]] Film render(std::uint32_t chunk_pixels) {
         const Crop& crop = job_.crop;
         const auto start = Clock::now();
         Film film(job_.width, job_.height, crop, options_.variance);
-        pixels_ = static_cast<std::uint64_t>(crop.width) * static_cast<std::uint64_t>(crop.height);
         std::vector<FilmPixel> chunk;
         Batch batch;
         for (; batch.first_pixel < pixels_ && !cancelled();
@@ -116,8 +123,8 @@ template <class Executor> class BatchRenderer {
     const RenderOptions& options_;
     Executor& executor_;
     RenderStats& stats_;
+    std::uint64_t pixels_; ///< of the crop
     SampleStep step_;
-    std::uint64_t pixels_ = 0;
 };
 
 } // namespace plumb

@@ -1,13 +1,11 @@
-/// \file  What one GPU thread does: the samples of one pixel, in order, host and device.
+/// \file  What one GPU thread of the megakernel does: a whole sample, host and device.
 ///
 /// The very sample_pixel, traversal and FilmPixel::add of the CPU, in the same order for each
 /// pixel: the film is the same bits by construction.
 #pragma once
 
 #include "cuda/device_tree.h"
-#include "cuda/grid.h"
-#include "renderer/integrate/film.h"
-#include "renderer/integrate/pixel.h"
+#include "cuda/waves.h"
 
 namespace plumb {
 
@@ -22,19 +20,13 @@ enum class PathKernel : std::uint8_t { box, full, full_moeller_trumbore };
     return box_profile.covers(needed) && !force_full ? PathKernel::box : PathKernel::full;
 }
 
-/// The work of one launch. Pixels of the crop are numbered row by row from 0.
-struct Batch {
-    std::uint64_t first_pixel = 0;
-    std::uint32_t pixel_count = 0;
-    std::uint32_t first_sample = 0, end_sample = 0; ///< of each pixel
-};
-
 /// What a kernel is launched with. Every pointer and span is of the side that runs it.
 struct DeviceJob {
     RenderJob job;
     TreeViews trees;
     Batch batch;
     FilmPixel* film = nullptr;   ///< batch.pixel_count, so far
+    Rgb* samples = nullptr;      ///< by slot, weighted; of the megakernel
     RayCounts* counts = nullptr; ///< one, for all threads
     bool with_variance = false;
 };
@@ -45,7 +37,16 @@ namespace detail {
 RT_HD inline void add_shared(std::uint64_t& counter, std::uint64_t n) {
 #ifdef __CUDA_ARCH__
     static_assert(sizeof(unsigned long long) == sizeof(std::uint64_t));
-    atomicAdd(reinterpret_cast<unsigned long long*>(&counter), n);
+    auto* const shared = reinterpret_cast<unsigned long long*>(&counter);
+#if __CUDA_ARCH__ >= 800
+    // One addition for all lanes that are here: a path has fewer than 2^27 rays.
+    const unsigned here = __activemask();
+    const unsigned sum = __reduce_add_sync(here, static_cast<unsigned>(n));
+    if (threadIdx.x % 32 == static_cast<unsigned>(__ffs(static_cast<int>(here)) - 1))
+        atomicAdd(shared, sum);
+#else
+    atomicAdd(shared, n);
+#endif
 #else
     counter += n;
 #endif
@@ -53,26 +54,25 @@ RT_HD inline void add_shared(std::uint64_t& counter, std::uint64_t n) {
 
 } // namespace detail
 
-/// The body of the kernel: thread i renders pixel i of the batch.
+/// Item i: the sample of slot i.
 template <Features F, TriangleTest Test, CudaTree Tree>
 RT_HD void render_thread(const DeviceJob& device, GridPosition at) {
-    const std::uint64_t i = at.index();
-    if (i >= device.batch.pixel_count)
+    if (at.index() >= device.batch.slots())
         return;
-    const Crop& crop = device.job.crop;
-    const std::uint64_t pixel = device.batch.first_pixel + i;
-    const auto width = static_cast<std::uint64_t>(crop.width);
-    const int x = crop.x + static_cast<int>(pixel % width);
-    const int y = crop.y + static_cast<int>(pixel / width);
+    const SlotSample sample(device.job.crop, device.batch, static_cast<std::uint32_t>(at.index()));
     const TreeQuery<Test, Tree> query{device.trees};
-    FilmPixel sum = device.film[i];
     RayCounts counts;
-    for (std::uint32_t s = device.batch.first_sample; s < device.batch.end_sample; ++s)
-        sum.add(sample_pixel<F>(device.job, query, x, y, s, counts), device.with_variance);
-    device.film[i] = sum;
+    device.samples[at.index()] =
+        sample_pixel<F>(device.job, query, sample.x, sample.y, sample.index, counts);
     detail::add_shared(device.counts->camera, counts.camera);
     detail::add_shared(device.counts->bounce, counts.bounce);
     detail::add_shared(device.counts->shadow, counts.shadow);
+}
+
+/// Item i: adds the samples of pixel i of the batch.
+RT_HD inline void add_samples_thread(const DeviceJob& device, GridPosition at) {
+    add_samples(device.batch, device.film, device.with_variance, at,
+                [&](std::uint64_t slot) { return device.samples[slot]; });
 }
 
 } // namespace plumb

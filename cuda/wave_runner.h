@@ -3,7 +3,6 @@
 
 #include "cuda/wavefront.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace plumb {
@@ -21,23 +20,18 @@ template <class Launcher> class WaveRunner {
     /// `device.batch` must have at most `slots` pixels. Returns the rays that were traced.
     RayCounts run(const DeviceJob& device) {
         RayCounts counts;
-        const Batch whole = device.batch;
-        const std::uint32_t at_once = std::max(slots_ / whole.pixel_count, 1u);
         WaveJob job{device, wave_};
-        for (std::uint32_t first = whole.first_sample; first < whole.end_sample;) {
-            job.device.batch.first_sample = first;
-            job.device.batch.end_sample = first + std::min(at_once, whole.end_sample - first);
+        in_waves(device.batch, slots_, [&](const Batch& batch) {
+            job.device.batch = batch;
             run_wave(job, counts);
-            first = job.device.batch.end_sample;
-        }
+        });
         return counts;
     }
 
   private:
     void run_wave(WaveJob& job, RayCounts& counts) {
-        const Batch& batch = job.device.batch;
         job.wave = wave_;
-        job.count = batch.pixel_count * (batch.end_sample - batch.first_sample);
+        job.count = job.device.batch.slots();
         launcher_.launch(WaveStage::generate, job);
         for (job.depth = 1; job.count > 0; ++job.depth) {
             (job.depth == 1 ? counts.camera : counts.bounce) += job.count;
@@ -51,7 +45,7 @@ template <class Launcher> class WaveRunner {
             job.count = filled.next;
             std::swap(job.wave.now, job.wave.next);
         }
-        job.count = batch.pixel_count;
+        job.count = job.device.batch.pixel_count;
         launcher_.launch(WaveStage::accumulate, job);
     }
 

@@ -31,7 +31,7 @@ struct WaveCounters {
     std::uint32_t next = 0, shadow = 0;
 };
 
-/// Memory of a wave, for `slots` paths. Slot s of a batch of n pixels: sample s / n, pixel s % n.
+/// Memory of a wave, a slot each path of its batch.
 struct WaveView {
     PathState* paths = nullptr;    ///< by slot
     Hit* hits = nullptr;           ///< by place in the queue
@@ -60,25 +60,6 @@ RT_HD inline std::uint32_t take_place(std::uint32_t& counter) {
 #endif
 }
 
-/// Where and when a slot's sample is.
-struct SlotSample {
-    int x, y;
-    std::uint32_t index;
-
-    RT_HD SlotSample(const DeviceJob& device, std::uint32_t slot) {
-        const Batch& batch = device.batch;
-        const Crop& crop = device.job.crop;
-        const std::uint64_t pixel = batch.first_pixel + slot % batch.pixel_count;
-        const auto width = static_cast<std::uint64_t>(crop.width);
-        x = crop.x + static_cast<int>(pixel % width);
-        y = crop.y + static_cast<int>(pixel / width);
-        index = batch.first_sample + slot / batch.pixel_count;
-    }
-    [[nodiscard]] RT_HD Sampler sampler(const RenderJob& job) const {
-        return {job.sampler.kind, job.sampler.seed, pixel_number(job, x, y), index};
-    }
-};
-
 } // namespace detail
 
 /// Item i: the camera ray of slot i.
@@ -86,7 +67,7 @@ template <Features F> RT_HD void generate_thread(const WaveJob& job, GridPositio
     if (at.index() >= job.count)
         return;
     const auto slot = static_cast<std::uint32_t>(at.index());
-    const detail::SlotSample sample(job.device, slot);
+    const SlotSample sample(job.device.job.crop, job.device.batch, slot);
     const Sample4 u = sample.sampler(job.device.job).group(0);
     const CameraSample camera = camera_sample(job.device.job, sample.x, sample.y, {u.x[0], u.x[1]});
     job.wave.paths[slot] = {PathSteps<F>::start(camera.ray), {}, camera.weight};
@@ -123,7 +104,7 @@ template <Features F> RT_HD void shade_thread(const WaveJob& job, GridPosition a
     if (steps.ends_at(vertex, depth))
         return;
     const BounceNumbers u =
-        steps.numbers(detail::SlotSample(job.device, slot).sampler(render), depth);
+        steps.numbers(SlotSample(render.crop, job.device.batch, slot).sampler(render), depth);
     if (steps.samples_lights()) {
         const DirectLight direct = steps.direct_light(path, vertex, u.light_point, u.light);
         if (direct.counts)
@@ -148,17 +129,13 @@ RT_HD void shadow_thread(const WaveJob& job, GridPosition at) {
         job.wave.paths[entry.slot].radiance += entry.radiance;
 }
 
-/// Item i: adds the samples of pixel i of the batch, in their order.
+/// Item i: adds the samples of pixel i of the batch.
 RT_HD inline void accumulate_thread(const WaveJob& job, GridPosition at) {
-    const Batch& batch = job.device.batch;
-    if (at.index() >= batch.pixel_count)
-        return;
-    FilmPixel sum = job.device.film[at.index()];
-    for (std::uint32_t s = 0; s < batch.end_sample - batch.first_sample; ++s) {
-        const PathState& state = job.wave.paths[std::uint64_t{s} * batch.pixel_count + at.index()];
-        sum.add(state.radiance * state.weight, job.device.with_variance);
-    }
-    job.device.film[at.index()] = sum;
+    add_samples(job.device.batch, job.device.film, job.device.with_variance, at,
+                [&](std::uint64_t slot) {
+                    const PathState& state = job.wave.paths[slot];
+                    return state.radiance * state.weight;
+                });
 }
 
 } // namespace plumb

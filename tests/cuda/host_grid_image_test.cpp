@@ -199,7 +199,8 @@ TEST_P(HostGridImage, CancelledItKeepsTheChunksThatAreDone) {
 }
 
 TEST(SampleStep, GrowsWhileLaunchesAreShortAndShrinksWhenTheyAreLong) {
-    SampleStep step;
+    EXPECT_EQ(SampleStep(28).value(), 28u);
+    SampleStep step(1);
     EXPECT_EQ(step.value(), 1u);
     step.measured(0.001);
     step.measured(0.001);
