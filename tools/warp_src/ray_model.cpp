@@ -1,0 +1,48 @@
+#include "tools/warp_src/ray_model.h"
+
+namespace plumb::warps {
+
+const char* name_of(RayWay way) {
+    switch (way) {
+    case RayWay::as_built: return "as built";
+    case RayWay::together: return "together";
+    case RayWay::sorted: return "sorted";
+    case RayWay::persistent: return "persistent";
+    }
+    return "";
+}
+
+RayCell model_cell(const TreeViews& trees, CudaTree tree, bench::RayKind kind,
+                   std::span<const Question> rays, RayWay way) {
+    const Gpu gpu;
+    Kernel kernel{tree};
+    if (way == RayWay::together)
+        kernel.loop = Loop::together;
+    if (way == RayWay::persistent)
+        kernel.refill_at = 20;
+    std::vector<Question> sorted;
+    if (way == RayWay::sorted) {
+        sorted.assign(rays.begin(), rays.end());
+        sort_rays(sorted);
+        rays = sorted;
+    }
+    RayCell cell{kind, tree, way, {}};
+    for (const std::uint32_t number : looked_at) {
+        Multiprocessor processor(gpu, Costs{}, trees, kernel);
+        const auto warps = warps_of(gpu, number, rays, {});
+        if (way == RayWay::persistent) {
+            std::vector<Question> queue;
+            for (const WarpWork& work : warps)
+                queue.insert(queue.end(), work[0].lanes.begin(), work[0].lanes.end());
+            processor.run(queue);
+        } else {
+            processor.run(warps);
+        }
+        cell.totals += processor.totals();
+    }
+    cell.rays_per_s = static_cast<double>(cell.totals.rays) / Clocks(cell.totals, gpu).most() *
+                      gpu.clock_hz * gpu.multiprocessors;
+    return cell;
+}
+
+} // namespace plumb::warps
