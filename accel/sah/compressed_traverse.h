@@ -175,6 +175,10 @@ RT_HD inline bool intersect(const PreparedRay& ray, const CompressedPrimitive& p
     return intersect_triangle<Test>(ray, p.a, p.b, p.c, tmax, hit);
 }
 
+/// How many primitives of a node are tested before lanes of a warp go on to nodes together: with
+/// all of them, lanes without primitives would wait for the one that has most (tools/warps).
+inline constexpr int primitives_a_turn = 2;
+
 /// Calls visit(hit, primitive) for hits until it returns true, and says whether it did. `best_t`
 /// may shrink meanwhile. The ray must be valid.
 template <TriangleTest Test, class Visit, class Tally>
@@ -184,23 +188,13 @@ RT_HD inline bool visit_hits(const CompressedView& view, const Ray& ray, const f
     CompressedTest test(prepared, is_plain(ray, view.reach), view.one);
     NodeGroup stack[compressed_max_depth];
     int size = 0;
-    NodeGroup group{0, 0x80000000u}; // the root: no slot before it holds a node
+    NodeGroup group{0, 0x80000000u};             // the root: no slot before it holds a node
+    std::uint32_t first_primitive = 0, left = 0; // of the node before: bits as CompressedTest's
     // One way back, so that the lanes of a warp meet there: with a `continue` for lanes whose group
     // is not done those that take from the stack would wait for them to come to their own end.
     for (bool goes_on = true; goes_on;) {
-        const std::uint32_t place = highest_one(group.bits);
-        const std::uint32_t slot = (place - 24) ^ test.turn();
-        const std::uint32_t before = ones(group.bits & 0xffu & ((1u << slot) - 1));
-        group.bits &= ~(1u << place);
-        const std::uint32_t index = group.first + before;
-        const CompressedNode node = view.nodes[index]; // whole: five wide loads
-        if ((group.bits & NodeGroup::todo) != 0)
-            stack[size++] = group;
-        tally.node(index);
-        const std::uint32_t hits = test(node, view.nodes[index]);
-        group = {node.first_child, (hits & NodeGroup::todo) | node.inner_mask()};
-        for (std::uint32_t left = hits & ~NodeGroup::todo; left != 0; left &= left - 1) {
-            const std::uint32_t primitive = node.first_primitive + lowest_one(left);
+        for (int i = 0; i < primitives_a_turn && left != 0; ++i, left &= left - 1) {
+            const std::uint32_t primitive = first_primitive + lowest_one(left);
             const CompressedPrimitive p = view.primitives[primitive];
             PrimitiveHit hit;
             tally.primitive(primitive);
@@ -208,10 +202,25 @@ RT_HD inline bool visit_hits(const CompressedView& view, const Ray& ray, const f
                 return true;
             test.limit(best_t);
         }
-        if ((group.bits & NodeGroup::todo) == 0) {
+        if (left == 0 && (group.bits & NodeGroup::todo) == 0) {
             goes_on = size > 0;
             if (goes_on)
                 group = stack[--size];
+        }
+        if (left == 0 && goes_on) {
+            const std::uint32_t place = highest_one(group.bits);
+            const std::uint32_t slot = (place - 24) ^ test.turn();
+            const std::uint32_t before = ones(group.bits & 0xffu & ((1u << slot) - 1));
+            group.bits &= ~(1u << place);
+            const std::uint32_t index = group.first + before;
+            const CompressedNode node = view.nodes[index]; // whole: five wide loads
+            if ((group.bits & NodeGroup::todo) != 0)
+                stack[size++] = group;
+            tally.node(index);
+            const std::uint32_t hits = test(node, view.nodes[index]);
+            group = {node.first_child, (hits & NodeGroup::todo) | node.inner_mask()};
+            first_primitive = node.first_primitive;
+            left = hits & ~NodeGroup::todo;
         }
     }
     return false;

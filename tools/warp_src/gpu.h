@@ -38,7 +38,7 @@ struct Cost {
 struct Costs {
     Cost ray{200, 90};         ///< checks and prepares it, stores its hit
     Cost binary_node{110, 60}; ///< with what comes from the stack
-    Cost wide_node{292, 171};  ///< likewise
+    Cost wide_node{300, 175};  ///< likewise
     Cost triangle{120, 55};    ///< 89 for a miss, 310 for a hit
     Cost sphere{230, 40};      ///< in double precision
     Cost shade{3000, 950};     ///< a vertex and its light: half of the box profile's shade stage

@@ -81,12 +81,12 @@ class Multiprocessor::Warp {
         else if (std::ranges::none_of(lanes_, &Lane::at_node))
             test_leaves(lanes_at(&Lane::at_leaf));
     }
-    /// A node, then its primitives; lanes with fewer of them wait.
+    /// Some primitives of lanes that have them left, then a node of those that have not.
     void wide_turn() {
+        for (int i = 0; i < detail::primitives_a_turn; ++i)
+            if (const auto at_leaf = lanes_at(&Lane::at_leaf); !at_leaf.empty())
+                test_leaves(at_leaf);
         test_nodes(sizeof(CompressedNode), m_.costs_.wide_node);
-        for (auto at_leaf = lanes_at(&Lane::at_leaf); !at_leaf.empty();
-             at_leaf = lanes_at(&Lane::at_leaf))
-            test_leaves(at_leaf);
     }
 
     void test_nodes(std::uint32_t bytes, const Cost& cost) {
