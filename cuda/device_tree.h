@@ -14,9 +14,10 @@ enum class CudaTree : std::uint8_t { binary, wide };
 /// over all paths. The same bits.
 enum class CudaSchedule : std::uint8_t { megakernel, wavefront };
 
+/// The defaults are what the model of an H100 makes fastest (README).
 struct CudaSettings {
-    CudaTree tree = CudaTree::binary;
-    CudaSchedule schedule = CudaSchedule::megakernel;
+    CudaTree tree = CudaTree::wide;
+    CudaSchedule schedule = CudaSchedule::wavefront;
 };
 
 [[nodiscard]] constexpr std::string_view name_of(CudaTree tree) {

@@ -149,10 +149,10 @@ void add_speed_flags(CLI::App& app, Options& options) {
     add_choice(app, "--device", options.device, device_names,
                "Where to render; auto takes a GPU where there is one [cpu]");
     add_choice(app, "--cuda-tree", options.cuda.tree, cuda_tree_names,
-               "Tree that a GPU traverses; the same bits [binary]");
+               "Tree that a GPU traverses; the same bits [wide]");
     add_choice(app, "--cuda-schedule", options.cuda.schedule, cuda_schedule_names,
                "One kernel for whole paths on a GPU, or one for each step; the same bits "
-               "[megakernel]");
+               "[wavefront]");
     add_count(app, "--threads", options.threads, 1, 1024, "Threads [all cores]");
     app.add_flag("--full-profile", options.full_profile,
                  "Use the general kernel whatever the scene needs (same bits, slower)");
