@@ -281,6 +281,10 @@ TEST(WarpPaths, AreThoseOfTheRender) {
     EXPECT_EQ(mega.totals.rays, of_first_block);
     EXPECT_EQ(mega.totals.memory_bytes, 0);
     EXPECT_GT(wave.totals.memory_bytes, 0);
+    const PathCell persistent =
+        model_cell(trees, CudaTree::wide, paths, PathWay::persistent_wavefront);
+    EXPECT_EQ(persistent.totals.rays, wave.totals.rays);
+    EXPECT_NEAR(persistent.totals.used, wave.totals.used, 1e-9 * wave.totals.used);
     EXPECT_GT(wave.totals.lanes_used(), mega.totals.lanes_used()); // those that ended make room
 }
 

@@ -27,8 +27,8 @@ class WarpsCommand(unittest.TestCase):
             with open(path, encoding="utf-8") as file:
                 found = json.load(file)
         self.assertEqual(len(found["rays"]), 2 * 5 * 7)
-        self.assertEqual(len(found["paths"]), 6)
-        self.assertEqual(len(done.stdout.splitlines()), 76)
+        self.assertEqual(len(found["paths"]), 8)
+        self.assertEqual(len(done.stdout.splitlines()), 78)
         self.assertIn("not measured", found["model"])
         for cell in found["rays"] + found["paths"]:
             self.assertGreater(cell["lanes_used"], 1 / 32)

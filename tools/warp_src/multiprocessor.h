@@ -79,6 +79,9 @@ class Multiprocessor {
     /// Persistent threads over a queue of rays, the first 32 to the first warp and so on.
     void run(std::span<const Question> queue);
 
+    /// Instructions of a warp besides, with so many lanes.
+    void besides(const Cost& cost, std::size_t lanes) { issue(cost, lanes); }
+
     [[nodiscard]] const Totals& totals() const { return totals_; }
 
   private:

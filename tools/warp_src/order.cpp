@@ -39,6 +39,14 @@ std::vector<WarpWork> warps_of(const Gpu& gpu, std::uint32_t number, std::span<c
     return warps;
 }
 
+std::vector<Question> queue_of(std::span<const WarpWork> warps) {
+    std::vector<Question> queue;
+    for (const WarpWork& work : warps)
+        for (const Phase& phase : work)
+            queue.insert(queue.end(), phase.lanes.begin(), phase.lanes.end());
+    return queue;
+}
+
 void sort_rays(std::vector<Question>& rays) {
     Bounds box;
     for (const Question& question : rays)

@@ -25,6 +25,10 @@ void for_warps(const Gpu& gpu, std::uint32_t number, std::size_t items, Take&& t
 [[nodiscard]] std::vector<WarpWork> warps_of(const Gpu& gpu, std::uint32_t number,
                                              std::span<const Question> rays, const Cost& besides);
 
+/// The rays of all warps, for persistent threads, which are refilled at so many lanes.
+[[nodiscard]] std::vector<Question> queue_of(std::span<const WarpWork> warps);
+inline constexpr std::uint32_t persistent_refill_at = 20;
+
 /// Sorts by the octant of the direction, then along a Z curve of 10 bits an axis through the box of
 /// the origins.
 void sort_rays(std::vector<Question>& rays);

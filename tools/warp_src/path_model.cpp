@@ -57,31 +57,57 @@ Totals megakernel(const Gpu& gpu, const Costs& costs, Multiprocessor& processor,
     return processor.totals();
 }
 
-Totals wavefront(const Gpu& gpu, const Costs& costs, Multiprocessor& processor,
-                 std::uint32_t number, std::span<const PathRays> paths, bool sorts) {
-    double bytes = 0;
-    for (std::size_t depth = 0;; ++depth) {
-        std::vector<Question> extend, shadow;
-        for (const PathRays& path : paths) {
-            if (depth >= path.size())
-                continue;
-            extend.push_back({path[depth].ray, false});
-            if (path[depth].shadow)
-                shadow.push_back({*path[depth].shadow, true});
+/// Stages of the wavefront on one multiprocessor.
+class Wavefront {
+  public:
+    Wavefront(const Gpu& gpu, const Costs& costs, const TreeViews& trees, CudaTree tree,
+              PathWay way, std::uint32_t number)
+        : gpu_(gpu), costs_(costs), way_(way), number_(number),
+          kernels_(gpu, costs, trees, {tree, wavefront_registers}),
+          persistent_(gpu, costs, trees, {tree, wavefront_registers, {}, persistent_refill_at}) {}
+
+    [[nodiscard]] Totals run(std::span<const PathRays> paths) {
+        double bytes = 0;
+        for (std::size_t depth = 0;; ++depth) {
+            std::vector<Question> extend, shadow;
+            for (const PathRays& path : paths) {
+                if (depth >= path.size())
+                    continue;
+                extend.push_back({path[depth].ray, false});
+                if (path[depth].shadow)
+                    shadow.push_back({*path[depth].shadow, true});
+            }
+            if (extend.empty())
+                break;
+            bytes += state_bytes * static_cast<double>(extend.size()) +
+                     shadow_bytes * static_cast<double>(shadow.size());
+            trace_and_shade(std::move(extend), depth > 0);
+            kernels_.run(warps_of(gpu_, number_, shadow, {}));
         }
-        if (extend.empty())
-            break;
-        bytes += state_bytes * static_cast<double>(extend.size()) +
-                 shadow_bytes * static_cast<double>(shadow.size());
-        if (sorts && depth > 0)
-            sort_rays(extend);
-        processor.run(warps_of(gpu, number, extend, costs.shade));
-        processor.run(warps_of(gpu, number, shadow, {}));
+        Totals totals = kernels_.totals();
+        totals += persistent_.totals();
+        totals.memory_bytes = bytes / gpu_.multiprocessors;
+        return totals;
     }
-    Totals totals = processor.totals();
-    totals.memory_bytes = bytes / gpu.multiprocessors;
-    return totals;
-}
+
+  private:
+    void trace_and_shade(std::vector<Question> rays, bool without_order) {
+        if (without_order && way_ == PathWay::sorted_wavefront)
+            sort_rays(rays);
+        const auto warps = warps_of(gpu_, number_, rays, costs_.shade);
+        if (!without_order || way_ != PathWay::persistent_wavefront)
+            return kernels_.run(warps);
+        persistent_.run(queue_of(warps));
+        for (const WarpWork& work : warps)
+            persistent_.besides(costs_.shade, work[0].lanes.size());
+    }
+
+    Gpu gpu_;
+    Costs costs_;
+    PathWay way_;
+    std::uint32_t number_;
+    Multiprocessor kernels_, persistent_;
+};
 
 } // namespace
 
@@ -90,6 +116,7 @@ const char* name_of(PathWay way) {
     case PathWay::megakernel: return "megakernel";
     case PathWay::wavefront: return "wavefront";
     case PathWay::sorted_wavefront: return "wavefront, sorted";
+    case PathWay::persistent_wavefront: return "wavefront, persistent";
     }
     return "";
 }
@@ -113,14 +140,14 @@ PathCell model_cell(const TreeViews& trees, CudaTree tree, std::span<const PathR
                     PathWay way) {
     const Gpu gpu;
     const Costs costs;
-    Kernel kernel{tree};
-    kernel.registers = way == PathWay::megakernel ? megakernel_registers : wavefront_registers;
     PathCell cell{tree, way, {}};
     for (const std::uint32_t number : looked_at) {
-        Multiprocessor processor(gpu, costs, trees, kernel);
-        cell.totals += way == PathWay::megakernel ? megakernel(gpu, costs, processor, number, paths)
-                                                  : wavefront(gpu, costs, processor, number, paths,
-                                                              way == PathWay::sorted_wavefront);
+        if (way == PathWay::megakernel) {
+            Multiprocessor processor(gpu, costs, trees, {tree, megakernel_registers});
+            cell.totals += megakernel(gpu, costs, processor, number, paths);
+        } else {
+            cell.totals += Wavefront(gpu, costs, trees, tree, way, number).run(paths);
+        }
     }
     // Each multiprocessor has the same share of a wave but for what does not divide.
     cell.paths = static_cast<double>(paths.size() * looked_at.size()) / gpu.multiprocessors;

@@ -18,9 +18,15 @@ using PathRays = std::vector<PathVertex>;
 /// All samples of the job by their slots (cuda/waves.h), traced on the CPU.
 [[nodiscard]] std::vector<PathRays> record_paths(const RenderJob& job, const SahView& tree);
 
-enum class PathWay : std::uint8_t { megakernel, wavefront, sorted_wavefront };
-inline constexpr std::array<PathWay, 3> path_ways{PathWay::megakernel, PathWay::wavefront,
-                                                  PathWay::sorted_wavefront};
+enum class PathWay : std::uint8_t {
+    megakernel,
+    wavefront,
+    sorted_wavefront,    ///< rays sorted from the second depth on, at no cost
+    persistent_wavefront ///< persistent threads for closest hits from the second depth on
+};
+inline constexpr std::array<PathWay, 4> path_ways{PathWay::megakernel, PathWay::wavefront,
+                                                  PathWay::sorted_wavefront,
+                                                  PathWay::persistent_wavefront};
 [[nodiscard]] const char* name_of(PathWay way);
 
 struct PathCell {

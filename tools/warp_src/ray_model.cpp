@@ -19,7 +19,7 @@ RayCell model_cell(const TreeViews& trees, CudaTree tree, bench::RayKind kind,
     if (way == RayWay::together)
         kernel.loop = Loop::together;
     if (way == RayWay::persistent)
-        kernel.refill_at = 20;
+        kernel.refill_at = persistent_refill_at;
     std::vector<Question> sorted;
     if (way == RayWay::sorted) {
         sorted.assign(rays.begin(), rays.end());
@@ -30,14 +30,10 @@ RayCell model_cell(const TreeViews& trees, CudaTree tree, bench::RayKind kind,
     for (const std::uint32_t number : looked_at) {
         Multiprocessor processor(gpu, Costs{}, trees, kernel);
         const auto warps = warps_of(gpu, number, rays, {});
-        if (way == RayWay::persistent) {
-            std::vector<Question> queue;
-            for (const WarpWork& work : warps)
-                queue.insert(queue.end(), work[0].lanes.begin(), work[0].lanes.end());
-            processor.run(queue);
-        } else {
+        if (way == RayWay::persistent)
+            processor.run(queue_of(warps));
+        else
             processor.run(warps);
-        }
         cell.totals += processor.totals();
     }
     cell.rays_per_s = static_cast<double>(cell.totals.rays) / Clocks(cell.totals, gpu).most() *

@@ -43,7 +43,7 @@ struct Numbers {
 
 void Report::add(const std::string& mesh, const RayCell& cell) {
     const Numbers numbers(cell.totals, static_cast<double>(cell.totals.rays));
-    fmt::print("{:10} {:8} {:6} {:17} {}  {:5.2f} G rays/s ({})\n", mesh, bench::name_of(cell.kind),
+    fmt::print("{:10} {:8} {:6} {:21} {}  {:5.2f} G rays/s ({})\n", mesh, bench::name_of(cell.kind),
                plumb::name_of(cell.tree), name_of(cell.way), numbers.line(), 1e-9 * cell.rays_per_s,
                numbers.clocks.bound());
     std::vector<std::string> members{json_member("mesh", json_text(mesh)),
@@ -57,7 +57,7 @@ void Report::add(const std::string& mesh, const RayCell& cell) {
 
 void Report::add(const std::string& scene, const PathCell& cell) {
     const Numbers numbers(cell.totals, cell.paths);
-    fmt::print("{:19} {:6} {:17} {}  {:5.0f} M paths/s ({})\n", scene, plumb::name_of(cell.tree),
+    fmt::print("{:19} {:6} {:21} {}  {:5.0f} M paths/s ({})\n", scene, plumb::name_of(cell.tree),
                name_of(cell.way), numbers.line(), 1e-6 * cell.paths_per_s, numbers.clocks.bound());
     std::vector<std::string> members{json_member("scene", json_text(scene)),
                                      json_member("tree", json_text(plumb::name_of(cell.tree))),
