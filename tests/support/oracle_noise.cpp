@@ -16,7 +16,7 @@ constexpr double sigmas = 4.9;
 constexpr double rounding = 1e-9;
 constexpr std::uint64_t fewest = 1u << 15, fewest_sobol = 1u << 16, most_for_variance = 1u << 19;
 
-/// Of `count` test pixels against `repetitions` x as many recorded ones.
+/// Of `count` blocks of test pixels against `repetitions` x as many recorded ones.
 double spread_of(std::span<const RelativeSamples> repetitions, double kurtosis, double count) {
     const auto times = static_cast<double>(repetitions.size());
     const double from_kurtosis = relative_error_of_variance(kurtosis, count);
@@ -56,12 +56,22 @@ std::map<std::string, OracleNoise> read_oracle_noise(const std::string& file) {
     return table;
 }
 
-std::uint64_t samples_for(double variance, double kurtosis, int samples_of_pixel) {
+std::uint64_t samples_for(const OracleRun& run, const RelativeSamples& pilot) {
     const auto count = [](double n) { return static_cast<std::uint64_t>(std::ceil(n)); };
-    const std::uint64_t for_mean = count(2.5e5 * variance);
+    double for_mean = pilot.block_variance();
+    if (run.method.reuse > 1) {
+        double for_shared = std::numeric_limits<double>::infinity();
+        for (int c = 0; c < 3; ++c)
+            if (const double part = run.shared_part(c); part > 1e-6)
+                for_shared = std::min(for_shared, pilot.block_variance(c) / (part * part));
+        if (std::isfinite(for_shared))
+            for_mean = std::max(for_mean, for_shared);
+    }
+    const int samples_of_block = pilot.samples_of_pixel * pilot.pixels_of_block;
     const std::uint64_t for_variance =
-        std::min(most_for_variance, count(2000 * (kurtosis - 1) * samples_of_pixel));
-    return std::max({for_mean, for_variance, samples_of_pixel > 1 ? fewest_sobol : fewest});
+        std::min(most_for_variance, count(2000 * (pilot.kurtosis() - 1) * samples_of_block));
+    return std::max(
+        {count(2.5e5 * for_mean), for_variance, samples_of_block > 1 ? fewest_sobol : fewest});
 }
 
 OracleNoise noise_of(std::span<const RelativeSamples> repetitions, std::uint64_t samples) {
@@ -75,7 +85,7 @@ OracleNoise noise_of(std::span<const RelativeSamples> repetitions, std::uint64_t
     noise.max_over_mean = all.max_over_mean();
     const double s = noise.variance > rounding
                          ? spread_of(repetitions, noise.kurtosis,
-                                     static_cast<double>(repetitions[0].channel[0].count()))
+                                     static_cast<double>(repetitions[0].block[0].count()))
                          : 0;
     noise.ceiling = noise.variance * std::exp(sigmas * std::sqrt(std::log1p(s * s))) + rounding;
     return noise;

@@ -9,7 +9,8 @@
 ///
 /// another stream of random numbers of the same quality exceeds it with a probability of 5e-7.
 /// Where single large samples make the spread of whole repetitions more than twice what the
-/// kurtosis says, that spread is taken: such a run has not seen its tail.
+/// kurtosis says, that spread is taken: such a run has not seen its tail. Pixels that share paths
+/// may err alike: a block of them is taken for one.
 #pragma once
 
 #include "tests/support/oracle.h"
@@ -34,9 +35,10 @@ struct OracleNoise {
 /// Reads the table. Throws std::runtime_error where a line is not understood or nothing is there.
 [[nodiscard]] std::map<std::string, OracleNoise> read_oracle_noise(const std::string& file);
 
-/// Samples that a test of a run with these moments needs: that a bias of 1 % is five standard
-/// errors, and that the variance is known well enough to see a fifth more of it, up to 2^19.
-[[nodiscard]] std::uint64_t samples_for(double variance, double kurtosis, int samples_of_pixel);
+/// Samples that a test of a run needs whose moments are like those of `pilot`: that a bias of 1 %
+/// is five standard errors, of what is shared too in the channel where that shows most; and that
+/// the variance is known well enough to see a fifth more of it, up to 2^19.
+[[nodiscard]] std::uint64_t samples_for(const OracleRun& run, const RelativeSamples& pilot);
 
 /// What repetitions of a test of `samples` samples, of different seeds, say together.
 [[nodiscard]] OracleNoise noise_of(std::span<const RelativeSamples> repetitions,

@@ -33,7 +33,7 @@ inline constexpr Double3 light_of_three{4, 2.5, 1.5};
     oracle.name = std::move(name);
     oracle.xml = std::move(xml);
     for (std::size_t c = 0; c < 3; ++c)
-        oracle.expected[c] = oracle.expected_cut[c] =
+        oracle.expected[c] = oracle.expected_cut[c] = oracle.expected_alone[c] =
             receiver_albedo[c] / pi_double * per_radiance * radiance[c];
     return oracle;
 }

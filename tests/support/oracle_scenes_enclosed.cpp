@@ -24,6 +24,7 @@ Oracle furnace(std::string name, const std::string& camera, const std::string& b
     for (std::size_t c = 0; c < 3; ++c) {
         oracle.expected[c] = series(light_of_three[c], wall_albedo[c]);
         oracle.expected_cut[c] = series(light_of_three[c], wall_albedo[c], depth_without_roulette);
+        oracle.expected_alone[c] = series(light_of_three[c], wall_albedo[c], 2);
     }
     return oracle;
 }
@@ -71,6 +72,7 @@ Oracle point_in_sphere(std::string name, double radius, const Double3& intensity
         const double direct = albedo[c] * intensity[c] / (pi_double * radius * radius);
         oracle.expected[c] = series(direct, albedo[c]);
         oracle.expected_cut[c] = series(direct, albedo[c], depth_without_roulette - 1);
+        oracle.expected_alone[c] = direct;
     }
     return oracle;
 }
@@ -95,6 +97,7 @@ Oracle cavity(std::string name, double lamp) {
     for (std::size_t c = 0; c < 3; ++c) {
         const double rho = cavity_albedo[c], emitted = light_of_three[c];
         oracle.expected[c] = series(rho * f * emitted, lamp > 0 ? rho : rho * (1 - f));
+        oracle.expected_alone[c] = rho * f * emitted;
         // Order by order: what leaves the wall and the lamp after one reflection more.
         double wall = 0, from_lamp = emitted;
         for (int segments = 2; segments <= depth_without_roulette; ++segments) {
