@@ -71,7 +71,8 @@ TEST(ValidateIntersectors, NaiveAndEmbreeHaveNothingUnexplained) {
         const ValidationReport r =
             compare(scene, AccelKind::naive, AccelKind::embree, 100000, false);
         EXPECT_EQ(r.unexplained_count(), 0u) << scene.name;
-        EXPECT_GT(r.count(Agreement::ulps), 1000u) << scene.name; // two arithmetics
+        // Two arithmetics; of copies Embree may take another one, which depends on the processor.
+        EXPECT_GT(r.count(Agreement::ulps) + r.count(Agreement::tie), 1000u) << scene.name;
         EXPECT_LT(r.worst_share, 1) << scene.name;
         EXPECT_EQ(r.unchecked, 0u) << scene.name;
     }
