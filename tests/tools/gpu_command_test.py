@@ -68,6 +68,33 @@ class GpuCommand(unittest.TestCase):
         self.assertEqual(done.stdout.count("RAYS"), 4)
         self.assertEqual(done.returncode, 1)
 
+    def test_what_was_done_before_a_failure_is_kept_and_is_no_skip(self):
+        other = os.path.join(self.folder.name, "broken")
+        os.makedirs(other, exist_ok=True)
+        with open(os.path.join(self.flat, "cornell-box.flat"), "rb") as file:
+            content = file.read()
+        for name, data in (("a.flat", content), ("b.flat", content[:-1])):
+            with open(os.path.join(other, name), "wb") as file:
+                file.write(data)
+        path = os.path.join(self.folder.name, "broken.json")
+        done = run(GPU, "--host", "--images", "--flat", other, "--json", path)
+        self.assertEqual(done.returncode, 70, done.stderr)
+        self.assertIn("b.flat", done.stderr)
+        self.assertNotIn("all bits", done.stdout)
+        with open(path, encoding="utf-8") as file:
+            found = json.load(file)
+        self.assertEqual(len(found["images"]), 4)
+        self.assertIn("b.flat", found["failure"])
+
+    def test_without_nvcc_the_build_says_so(self):
+        with tempfile.TemporaryDirectory() as folder:  # a PATH with the shell's own tools alone
+            for tool in ("bash", "dirname", "readlink", "sed", "mkdir"):
+                os.symlink("/usr/bin/" + tool, os.path.join(folder, tool))
+            done = subprocess.run([os.path.join(PROJECT, "tools", "gpu")], capture_output=True, text=True,
+                                  timeout=60, env={"PATH": folder, "CUDA_HOME": folder})
+        self.assertEqual(done.returncode, 70, done.stdout + done.stderr)
+        self.assertIn("no nvcc", done.stderr)
+
     def test_rays_have_the_hits_of_the_cpu(self):
         path = os.path.join(self.folder.name, "rays.json")
         done = run(GPU, "--host", "--rays", "--quick", "--only", "hall", "--json", path)

@@ -85,8 +85,7 @@ void print(const ImageResult& r) {
 
 } // namespace
 
-std::vector<ImageResult> check_images(const Options& options) {
-    std::vector<ImageResult> results;
+void check_images(const Options& options, std::vector<ImageResult>& results) {
     for (const std::filesystem::path& file : flat_files(options)) {
         const FlatScene flat = read_flat(file);
         const FlatJob job(flat);
@@ -111,7 +110,6 @@ std::vector<ImageResult> check_images(const Options& options) {
             results.push_back(result);
         }
     }
-    return results;
 }
 
 std::string to_json(const ImageResult& r) {

@@ -22,8 +22,9 @@ struct ImageResult {
     [[nodiscard]] bool right() const { return same_image && same_rays; }
 };
 
-/// Prints a line for each as it comes. Throws DeviceError, and std::runtime_error for files.
-[[nodiscard]] std::vector<ImageResult> check_images(const Options& options);
+/// Prints a line for each as it comes and appends it to `results`. Throws DeviceError, and
+/// std::runtime_error for files.
+void check_images(const Options& options, std::vector<ImageResult>& results);
 
 [[nodiscard]] std::string to_json(const ImageResult& result);
 

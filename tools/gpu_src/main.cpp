@@ -19,65 +19,92 @@ template <class Result> std::string json_list(const std::vector<Result>& results
     return json_joined(parts, '[', ']', ",\n    ");
 }
 
-void write_json(const Options& options, const std::string& device,
-                const std::vector<ImageResult>& images, const std::vector<RayResult>& rays) {
+/// What was found before all was done or something failed.
+struct Found {
+    std::string device = "host";
+    std::vector<ImageResult> images;
+    std::vector<RayResult> rays;
+
+    [[nodiscard]] std::uint64_t wrong() const {
+        std::uint64_t sum = 0;
+        for (const ImageResult& image : images)
+            sum += image.right() ? 0u : 1u;
+        for (const RayResult& result : rays)
+            for (const RayCell& cell : result.cells)
+                sum += cell.wrong;
+        return sum;
+    }
+};
+
+void write_json(const Options& options, const Found& found, const std::string& failure) {
+    std::vector<std::string> members{
+        json_member("version", json_text(PLUMB_VERSION)),
+        json_member("device", json_text(found.device)),
+        json_member("quick", options.quick ? "true" : "false"),
+        json_member("repetitions", std::to_string(options.repetitions)),
+        json_member("images", json_list(found.images)),
+        json_member("rays", json_list(found.rays))};
+    if (!failure.empty())
+        members.push_back(json_member("failure", json_text(failure)));
     std::ofstream out(options.json, std::ios::binary);
-    out << json_joined({json_member("version", json_text(PLUMB_VERSION)),
-                        json_member("device", json_text(device)),
-                        json_member("quick", options.quick ? "true" : "false"),
-                        json_member("repetitions", std::to_string(options.repetitions)),
-                        json_member("images", json_list(images)),
-                        json_member("rays", json_list(rays))},
-                       '{', '}', ",\n  ")
-        << "\n";
+    out << json_joined(members, '{', '}', ",\n  ") << "\n";
     out.flush();
     if (!out)
         throw std::runtime_error(options.json.string() + ": cannot be written");
 }
 
-int run(const Options& options) {
-    std::string device = "host";
-    if (options.side == RaySide::device) {
-        std::string why;
-        if (!cuda_available(&why))
-            throw DeviceError(why);
-        device = cuda_device_name();
+/// Exit codes. A device that fails in the middle is not one that is missing: tests skip the latter.
+enum ExitCode : int { right = 0, wrong = 1, no_device = 6, device_failed = 7, internal = 70 };
+
+/// Checks and times all that is asked for. An exit code, and what failed.
+int measure(const Options& options, Found& found, std::string& failure) {
+    try {
+        if (options.images)
+            check_images(options, found.images);
+        if (options.rays)
+            bench_rays(options, found.rays);
+        return found.wrong() == 0 ? right : wrong;
+    } catch (const DeviceError& error) {
+        failure = error.what();
+        return device_failed;
+    } catch (const std::bad_alloc&) {
+        failure = "out of memory";
+        return device_failed;
+    } catch (const std::exception& error) {
+        failure = error.what();
+        return internal;
     }
-    std::printf("on %s\n", device.c_str());
-    std::vector<ImageResult> images;
-    std::vector<RayResult> rays;
-    if (options.images)
-        images = check_images(options);
-    if (options.rays)
-        rays = bench_rays(options);
-    if (!options.json.empty())
-        write_json(options, device, images, rays);
-    std::uint64_t wrong = 0;
-    for (const ImageResult& image : images)
-        wrong += image.right() ? 0u : 1u;
-    for (const RayResult& result : rays)
-        for (const RayCell& cell : result.cells)
-            wrong += cell.wrong;
-    if (wrong == 0) {
-        std::printf("all bits are those of the CPU\n");
-        return 0;
-    }
-    std::fprintf(stderr, "error: %llu images and hits are not those of the CPU\n",
-                 static_cast<unsigned long long>(wrong));
-    return 1;
 }
 
-/// The one place where exceptions become exit codes; they are those of renderer.
+int run(const Options& options) {
+    Found found;
+    if (options.side == RaySide::device) {
+        std::string why;
+        if (!cuda_available(&why)) {
+            std::fprintf(stderr, "error: %s\n", why.c_str());
+            return no_device;
+        }
+        found.device = cuda_device_name();
+    }
+    std::printf("on %s\n", found.device.c_str());
+    std::string failure;
+    const int code = measure(options, found, failure);
+    if (!options.json.empty())
+        write_json(options, found, failure);
+    if (code == right)
+        std::printf("all bits are those of the CPU\n");
+    if (found.wrong() > 0)
+        std::fprintf(stderr, "error: %llu images and hits are not those of the CPU\n",
+                     static_cast<unsigned long long>(found.wrong()));
+    if (!failure.empty())
+        std::fprintf(stderr, "error: %s\n", failure.c_str());
+    return code;
+}
+
+/// What fails before and after.
 int run_and_report(const Options& options) {
-    constexpr int resources = 6, internal = 70;
     try {
         return run(options);
-    } catch (const DeviceError& error) {
-        std::fprintf(stderr, "error: %s\n", error.what());
-        return resources;
-    } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "error: out of memory\n");
-        return resources;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "error: %s\n", error.what());
         return internal;

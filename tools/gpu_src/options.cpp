@@ -17,7 +17,8 @@ constexpr const char* help =
   --quick          small meshes, few samples
   --repetitions N  of each time [7]
   --host           the same kernels in a loop on the CPU
-Exit codes: 0 all bits are right, 1 some are not, 2 usage, 6 no device, or it failed.
+Exit codes: 0 all bits are right, 1 some are not, 2 usage, 6 no device, 7 it failed in the middle
+(the JSON has what was done before), 70 a file or the program itself is wrong.
 )";
 
 int mistake(const std::string& what) {

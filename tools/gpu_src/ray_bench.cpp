@@ -72,8 +72,7 @@ void print(const RayResult& r, const RayCell& c) {
 
 } // namespace
 
-std::vector<RayResult> bench_rays(const Options& options) {
-    std::vector<RayResult> results;
+void bench_rays(const Options& options, std::vector<RayResult>& results) {
     for (const bench::CatalogueEntry& entry : bench::catalogue()) {
         if (!entry.name.starts_with(options.only))
             continue;
@@ -100,7 +99,6 @@ std::vector<RayResult> bench_rays(const Options& options) {
             results.push_back(std::move(result));
         }
     }
-    return results;
 }
 
 std::string to_json(const RayResult& r) {

@@ -25,8 +25,9 @@ struct RayResult {
     std::vector<RayCell> cells;
 };
 
-/// Prints a line for each cell as it comes. Throws DeviceError.
-[[nodiscard]] std::vector<RayResult> bench_rays(const Options& options);
+/// Prints a line for each cell as it comes and appends each tree of each mesh to `results`. Throws
+/// DeviceError.
+void bench_rays(const Options& options, std::vector<RayResult>& results);
 
 [[nodiscard]] std::string to_json(const RayResult& result);
 
