@@ -9,11 +9,14 @@
 namespace plumb::detail {
 
 /// Throws DeviceError unless `error` is success. Errors of a kernel surface at a later call: the
-/// place is where it was noticed.
+/// place is where it was noticed. The runtime forgets the error, so that one that was caught, no
+/// memory say, does not fail the next launch.
 inline void check_cuda(cudaError_t error, const char* file, int line) {
-    if (error != cudaSuccess)
-        throw DeviceError(std::string("cuda: ") + cudaGetErrorString(error) + " (" + file + ":" +
-                          std::to_string(line) + ")");
+    if (error == cudaSuccess)
+        return;
+    cudaGetLastError();
+    throw DeviceError(std::string("cuda: ") + cudaGetErrorString(error) + " (" + file + ":" +
+                      std::to_string(line) + ")");
 }
 
 } // namespace plumb::detail

@@ -68,7 +68,8 @@ DeviceRays::~DeviceRays() = default;
 void DeviceRays::load(std::span<const Ray> rays) {
     RT_CUDA_CHECK(cudaSetDevice(0)); // of this thread
     State& s = *state_;
-    if (!s.rays || s.rays->size() < rays.size()) {
+    if (!s.found || s.found->size() < rays.size()) { // the last of the three: all are there
+        s.found.reset();
         s.rays.emplace(rays.size());
         s.hits.emplace(rays.size());
         s.found.emplace(rays.size());
