@@ -1,7 +1,7 @@
 /// \file  Samples of a batch in memory, a slot each, and as many at a time as there are slots.
 ///
-/// However few pixels an image has, its samples fill a device; and however a path is scheduled, its
-/// pixel adds the slots of its samples in order.
+/// An image of few pixels fills a device by its samples; and however a path is scheduled, its pixel
+/// adds the slots of its samples in order.
 #pragma once
 
 #include "cuda/grid.h"
@@ -54,10 +54,13 @@ RT_HD void add_samples(const Batch& batch, FilmPixel* film, bool with_variance, 
     film[at.index()] = sum;
 }
 
+/// Samples of a pixel in a wave at most: one thread adds them one after the other.
+inline constexpr std::uint32_t most_wave_samples = 4096;
+
 /// Calls run(batch) for the samples of `whole`, in order, with at most `slots` at a time, which
 /// must be its pixels at least.
 template <class Run> void in_waves(const Batch& whole, std::uint32_t slots, Run&& run) {
-    const std::uint32_t at_once = std::max(slots / whole.pixel_count, 1u);
+    const std::uint32_t at_once = std::clamp(slots / whole.pixel_count, 1u, most_wave_samples);
     Batch wave = whole;
     for (std::uint32_t first = whole.first_sample; first < whole.end_sample;
          first = wave.end_sample) {

@@ -26,6 +26,13 @@ TEST(Waves, EverySampleOfTheBatchIsInOneSlotOfOneWaveInOrder) {
     }
 }
 
+TEST(Waves, NoPixelAddsMoreThanSomeThousandSamplesAtATime) {
+    std::vector<std::uint32_t> samples;
+    in_waves({0, 2, 0, 10000}, 1u << 20,
+             [&](const Batch& wave) { samples.push_back(wave.samples()); });
+    EXPECT_EQ(samples, (std::vector<std::uint32_t>{4096, 4096, 1808}));
+}
+
 TEST(Waves, SlotsOfABatchAreItsPixelsAndSamples) {
     const Crop crop{4, 2, 5, 3};
     const Batch batch{6, 8, 10, 13}; // from the second pixel of the second row on
