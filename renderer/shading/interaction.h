@@ -21,12 +21,12 @@ struct Interaction {
 
 namespace detail {
 
-/// The next float away from zero in the direction of `sign` (> 0: up).
+/// The next float up, or down. A NaN stays one: its bits are not the same on every machine.
 RT_HD inline float next_float(float x, bool up) {
     const std::uint32_t bits = std::bit_cast<std::uint32_t>(x);
     const float next = std::bit_cast<float>(((x > 0) == up) ? bits + 1 : bits - 1);
     const float least = up ? 1e-45f : -1e-45f;
-    return x == 0 ? least : next;
+    return x != x ? x : x == 0 ? least : next;
 }
 
 /// Unit normal of a sliver whose cross product is too small: from scaled edges, or the direction

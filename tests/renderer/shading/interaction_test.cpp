@@ -183,6 +183,9 @@ TEST(NextFloat, StepsOneUlpEitherWay) {
         EXPECT_EQ(detail::next_float(x, false), std::nextafter(x, -infinity));
     }
     EXPECT_EQ(detail::next_float(0, true), std::numeric_limits<float>::denorm_min());
+    for (const std::uint32_t nan : {0x7fffffffu, 0xffc00000u, 0x7f800001u, 0xffffffffu})
+        for (const bool up : {true, false}) // a GPU's and a CPU's NaN
+            EXPECT_TRUE(std::isnan(detail::next_float(std::bit_cast<float>(nan), up)));
     EXPECT_EQ(detail::next_float(-0.0f, false), -std::numeric_limits<float>::denorm_min());
 }
 
