@@ -42,23 +42,25 @@ RT_HD inline float with_byte(std::uint32_t word, std::uint32_t i, std::uint32_t 
 }
 
 /// The largest of `from` >= 0 and three numbers, and the smallest of `to` >= 0 and three, none of
-/// them a NaN. A device compares their bits as integers, three in an instruction: where all is
-/// positive that is the order of the numbers, and a negative end of an interval that starts at 0 or
-/// later stays negative, or becomes -0, which only visits a box more.
+/// them a NaN. Their bits are compared as integers, of which a device takes three in an
+/// instruction: where all is positive that is the order of the numbers, and a negative end of an
+/// interval that starts at 0 or later stays negative, or becomes -0, which only visits a box more.
 RT_HD inline float largest(float from, float x, float y, float z) {
-#ifdef __CUDA_ARCH__
     const auto bits = [](float a) { return std::bit_cast<std::int32_t>(a); };
-    return std::bit_cast<float>(__vimax3_s32(::max(bits(from), bits(x)), bits(y), bits(z)));
+    const auto larger = [](std::int32_t a, std::int32_t b) { return a > b ? a : b; };
+#ifdef __CUDA_ARCH__
+    return std::bit_cast<float>(__vimax3_s32(larger(bits(from), bits(x)), bits(y), bits(z)));
 #else
-    return max(max(from, x), max(y, z));
+    return std::bit_cast<float>(larger(larger(bits(from), bits(x)), larger(bits(y), bits(z))));
 #endif
 }
 RT_HD inline float smallest(float to, float x, float y, float z) {
-#ifdef __CUDA_ARCH__
     const auto bits = [](float a) { return std::bit_cast<std::int32_t>(a); };
-    return std::bit_cast<float>(__vimin3_s32(::min(bits(to), bits(x)), bits(y), bits(z)));
+    const auto smaller = [](std::int32_t a, std::int32_t b) { return a < b ? a : b; };
+#ifdef __CUDA_ARCH__
+    return std::bit_cast<float>(__vimin3_s32(smaller(bits(to), bits(x)), bits(y), bits(z)));
 #else
-    return min(min(to, x), min(y, z));
+    return std::bit_cast<float>(smaller(smaller(bits(to), bits(x)), smaller(bits(y), bits(z))));
 #endif
 }
 
