@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <set>
 
 namespace plumb::warps::test {
 namespace {
@@ -172,6 +173,15 @@ TEST_F(WarpModel, LoadsTakeAsManyClocksAsTheirLinesAndBytes) {
             EXPECT_EQ(run({tree}, std::vector<Question>(32, ray)).l1_clocks, together);
         }
     }
+    // From an empty L1 every sector that a ray touches comes once.
+    for (const Question& ray : rays_) {
+        std::set<std::uintptr_t> sectors;
+        for (const Step& step : steps_of(trees(), CudaTree::wide, ray))
+            for (std::size_t byte = 0; byte < (step.is_node() ? 80u : 48u); byte += 16)
+                sectors.insert((reinterpret_cast<std::uintptr_t>(step.address) + byte) / 32);
+        EXPECT_EQ(run({CudaTree::wide}, {&ray, 1}).l2_bytes,
+                  32.0 * static_cast<double>(sectors.size()));
+    }
     EXPECT_EQ(load_clocks(Gpu{}, 1, 32, 4), 1);
     EXPECT_EQ(load_clocks(Gpu{}, 1, 32, 16), 4);
     EXPECT_EQ(load_clocks(Gpu{}, 32, 32, 4), 8); // four lines a clock
@@ -220,6 +230,20 @@ TEST_F(WarpModel, SortedRaysAreTheSameRaysByOctant) {
     EXPECT_TRUE(std::ranges::is_sorted(sorted, {}, octant));
     const auto key = [](const Question& q) { return q.ray.direction; };
     EXPECT_TRUE(std::ranges::is_permutation(sorted, rays_, {}, key, key));
+    // Neighbours start near one another: rays from anywhere in a cube, all in one octant.
+    Random random(18);
+    std::vector<Question> anywhere;
+    for (int i = 0; i < 4000; ++i)
+        anywhere.push_back({{random.point(0, 1), 0, {1, 1, 1}, infinity}, false});
+    const auto mean_step = [](const std::vector<Question>& rays) {
+        double sum = 0;
+        for (std::size_t i = 1; i < rays.size(); ++i)
+            sum += static_cast<double>(length(rays[i].ray.origin - rays[i - 1].ray.origin));
+        return sum / static_cast<double>(rays.size() - 1);
+    };
+    const double before = mean_step(anywhere);
+    sort_rays(anywhere);
+    EXPECT_LT(mean_step(anywhere), 0.2 * before);
 }
 
 TEST(WarpClocks, TheSlowestPartHoldsUpTheRest) {
@@ -281,11 +305,28 @@ TEST(WarpPaths, AreThoseOfTheRender) {
     EXPECT_EQ(mega.totals.rays, of_first_block);
     EXPECT_EQ(mega.totals.memory_bytes, 0);
     EXPECT_GT(wave.totals.memory_bytes, 0);
+    const PathCell sorted = model_cell(trees, CudaTree::wide, paths, PathWay::sorted_wavefront);
+    EXPECT_EQ(sorted.totals.rays, wave.totals.rays); // others, as many
+    EXPECT_EQ(sorted.totals.memory_bytes, wave.totals.memory_bytes);
+    EXPECT_NE(sorted.totals.issued, wave.totals.issued);
+    EXPECT_GT(wave.totals.lanes_used(), mega.totals.lanes_used()); // those that ended make room
+}
+
+TEST(WarpPaths, PersistentThreadsTraceTheSameRaysInOtherTurns) {
+    const Scene scene = plumb::test::load_xml(
+        plumb::test::plain_box(), {{"side", "128"}, {"spp", "8"}, {"sampler", "sobol"}});
+    const SceneTables tables(scene);
+    const SahTree binary = build_sah(tables.geometry(), 1);
+    const CompressedTree wide = build_compressed(tables.geometry(), 1);
+    const TreeViews trees{binary.view(), wide.view()};
+    // More than the warps that are resident have lanes: those that are done take others.
+    const auto paths = record_paths(make_job(scene, tables.view()), binary.view());
+    const PathCell wave = model_cell(trees, CudaTree::wide, paths, PathWay::wavefront);
     const PathCell persistent =
         model_cell(trees, CudaTree::wide, paths, PathWay::persistent_wavefront);
     EXPECT_EQ(persistent.totals.rays, wave.totals.rays);
     EXPECT_NEAR(persistent.totals.used, wave.totals.used, 1e-9 * wave.totals.used);
-    EXPECT_GT(wave.totals.lanes_used(), mega.totals.lanes_used()); // those that ended make room
+    EXPECT_NE(persistent.totals.issued, wave.totals.issued);
 }
 
 } // namespace
