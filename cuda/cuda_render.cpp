@@ -34,9 +34,7 @@ class PlacedJob {
         Arena arena(block_.data(), [](std::byte* to, const void* from, std::size_t bytes) {
             RT_CUDA_CHECK(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice));
         });
-        device_.job = job;
-        device_.job.scene = place(job.scene, arena);
-        device_.trees = place(trees, arena);
+        device_ = place(job, trees, arena);
     }
 
     [[nodiscard]] const DeviceJob& device() const { return device_; }
@@ -44,11 +42,9 @@ class PlacedJob {
 
   private:
     static std::size_t size_of(const RenderJob& job, const TreeViews& trees) {
-        Arena measure;
-        static_cast<void>(place(job.scene, measure));
-        static_cast<void>(place(trees, measure));
-        require_device_memory(measure.used(), "the scene");
-        return measure.used();
+        const std::size_t bytes = placed_size(job, trees);
+        require_device_memory(bytes, "the scene");
+        return bytes;
     }
 
     DeviceBuffer<std::byte> block_;
@@ -116,7 +112,6 @@ class DeviceWaves : public DeviceFilm {
 
     void clear(std::uint32_t pixels) {
         DeviceFilm::clear(pixels);
-        counters_.clear(1);
         rays_ = {};
     }
     RayCounts run(const Batch& batch) {
@@ -130,10 +125,10 @@ class DeviceWaves : public DeviceFilm {
     void launch(WaveStage stage, const WaveJob& job) {
         launch_wave_stage(stage, job, kernel_, tree_);
     }
-    WaveCounters take_counters(const WaveJob& /*job*/) {
-        WaveCounters counters;
+    void clear_counters() { counters_.clear(1); }
+    [[nodiscard]] RunCounters counters() const {
+        RunCounters counters;
         counters_.copy_to({&counters, 1});
-        counters_.clear(1);
         return counters;
     }
     [[nodiscard]] std::size_t bytes() const {
@@ -151,7 +146,7 @@ class DeviceWaves : public DeviceFilm {
     DeviceBuffer<Hit> hits_;
     DeviceBuffer<std::uint32_t> now_, next_;
     DeviceBuffer<ShadowEntry> shadows_;
-    DeviceBuffer<WaveCounters> counters_;
+    DeviceBuffer<RunCounters> counters_;
     RayCounts rays_;
 };
 

@@ -142,7 +142,7 @@ template <Features F, TriangleTest Test, CudaTree Tree> class HostWaves : public
     }
     void launch(WaveStage stage, const WaveJob& job) {
         ++launches_;
-        run_grid_on_host(grid_, job.count, [&](GridPosition at) {
+        run_grid_on_host(grid_, job.threads, [&](GridPosition at) {
             switch (stage) {
             case WaveStage::generate: return generate_thread<F>(job, at);
             case WaveStage::extend: return extend_thread<Test, Tree>(job, at);
@@ -152,7 +152,8 @@ template <Features F, TriangleTest Test, CudaTree Tree> class HostWaves : public
             }
         });
     }
-    WaveCounters take_counters(const WaveJob& /*job*/) { return std::exchange(counters_, {}); }
+    void clear_counters() { counters_ = {}; }
+    [[nodiscard]] RunCounters counters() const { return counters_; }
 
   private:
     HostGrid grid_;
@@ -161,15 +162,7 @@ template <Features F, TriangleTest Test, CudaTree Tree> class HostWaves : public
     std::vector<Hit> hits_;
     std::vector<std::uint32_t> now_, next_;
     std::vector<ShadowEntry> shadows_;
-    WaveCounters counters_;
+    RunCounters counters_{};
 };
-
-/// Bytes that a job and its tree take.
-[[nodiscard]] inline std::size_t placed_size(const RenderJob& job, const TreeViews& trees) {
-    Arena measure;
-    static_cast<void>(place(job.scene, measure));
-    static_cast<void>(place(trees, measure));
-    return measure.used();
-}
 
 } // namespace plumb

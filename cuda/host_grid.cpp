@@ -34,10 +34,7 @@ Film render_on_host_grid(const RenderJob& job, const Features& needed, const Tre
                          const RenderOptions& options, RenderStats& stats) {
     HostBlock block(placed_size(job, trees));
     Arena arena = block.arena();
-    DeviceJob device;
-    device.job = job;
-    device.job.scene = place(job.scene, arena);
-    device.trees = place(trees, arena);
+    DeviceJob device = place(job, trees, arena);
     device.with_variance = options.variance;
     const PathKernel kernel = path_kernel_for(needed, test, options.force_full_profile);
     stats.profile = profile_name(kernel == PathKernel::box ? box_profile : full_profile);

@@ -88,4 +88,21 @@ class Arena {
     return copy;
 }
 
+/// What kernels are launched with, but for film and batch, with copies of all that it points to.
+[[nodiscard]] inline DeviceJob place(const RenderJob& job, const TreeViews& trees, Arena& arena) {
+    DeviceJob device;
+    device.job = job;
+    device.job.scene = place(job.scene, arena);
+    device.filter = arena.place(std::span(&job.filter, 1)).data();
+    device.trees = place(trees, arena);
+    return device;
+}
+
+/// Bytes that they take.
+[[nodiscard]] inline std::size_t placed_size(const RenderJob& job, const TreeViews& trees) {
+    Arena measure;
+    static_cast<void>(place(job, trees, measure));
+    return measure.used();
+}
+
 } // namespace plumb

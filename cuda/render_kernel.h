@@ -1,6 +1,6 @@
 /// \file  What one GPU thread of the megakernel does: a whole sample, host and device.
 ///
-/// The very sample_pixel, traversal and FilmPixel::add of the CPU, in the same order for each
+/// The very camera, path, traversal and FilmPixel::add of the CPU, in the same order for each
 /// pixel: the film is the same bits by construction.
 #pragma once
 
@@ -23,6 +23,9 @@ enum class PathKernel : std::uint8_t { box, full, full_moeller_trumbore };
 /// What a kernel is launched with. Every pointer and span is of the side that runs it.
 struct DeviceJob {
     RenderJob job;
+    /// job.filter, which every lane reads elsewhere, in memory made for that: among a kernel's
+    /// parameters lanes that read different words take turns.
+    const FilterTable* filter = nullptr;
     TreeViews trees;
     Batch batch;
     FilmPixel* film = nullptr;   ///< batch.pixel_count, so far
@@ -60,10 +63,13 @@ RT_HD void render_thread(const DeviceJob& device, GridPosition at) {
     if (at.index() >= device.batch.slots())
         return;
     const SlotSample sample(device.job.crop, device.batch, static_cast<std::uint32_t>(at.index()));
+    const Sampler sampler = sample.sampler(device.job);
+    const CameraSample camera = sample.camera(device.job, *device.filter, sampler);
     const TreeQuery<Test, Tree> query{device.trees};
+    const PathSteps<F> steps(device.job.scene, device.job.path);
     RayCounts counts;
     device.samples[at.index()] =
-        sample_pixel<F>(device.job, query, sample.x, sample.y, sample.index, counts);
+        trace_path(steps, query, camera.ray, sampler, counts) * camera.weight;
     detail::add_shared(device.counts->camera, counts.camera);
     detail::add_shared(device.counts->bounce, counts.bounce);
     detail::add_shared(device.counts->shadow, counts.shadow);

@@ -77,7 +77,7 @@ Kernel kernel_of(const Stages& stages, WaveStage stage) {
 
 void launch_wave_stage(WaveStage stage, const WaveJob& job, PathKernel kind, CudaTree tree) {
     const Kernel kernel = kernel_of(stages_of(kind, tree), stage);
-    const LaunchShape shape = shape_for(job.count, threads_per_block);
+    const LaunchShape shape = shape_for(job.threads, threads_per_block);
     kernel<<<shape.blocks, shape.block_size>>>(job);
     RT_CUDA_CHECK(cudaGetLastError());
 }

@@ -10,8 +10,9 @@ namespace plumb {
 enum class WaveStage : std::uint8_t { generate, extend, shade, shadow, accumulate };
 
 /// Runs batches as waves of at most `slots` paths. `Launcher` has
-///     void launch(WaveStage stage, const WaveJob& job);  // job.count threads; may return early
-///     WaveCounters take_counters(const WaveJob& job);    // waits; returns and clears the counters
+///     void launch(WaveStage stage, const WaveJob& job);  // job.threads; may return early
+///     void clear_counters();
+///     RunCounters counters();                            // waits for all stages
 template <class Launcher> class WaveRunner {
   public:
     WaveRunner(Launcher& launcher, const WaveView& wave, std::uint32_t slots)
@@ -31,22 +32,36 @@ template <class Launcher> class WaveRunner {
   private:
     void run_wave(WaveJob& job, RayCounts& counts) {
         job.wave = wave_;
-        job.count = job.device.batch.slots();
+        job.threads = job.device.batch.slots();
         launcher_.launch(WaveStage::generate, job);
-        for (job.depth = 1; job.count > 0; ++job.depth) {
-            (job.depth == 1 ? counts.camera : counts.bounce) += job.count;
+        counts.camera += job.threads;
+        for (job.depth = 1; job.threads > 0 && !all_end(job);)
+            run_depths(job, counts);
+        job.threads = job.device.batch.pixel_count;
+        launcher_.launch(WaveStage::accumulate, job);
+    }
+
+    /// Whether no path has a vertex at this depth.
+    [[nodiscard]] static bool all_end(const WaveJob& job) {
+        return job.depth - 1 == job.device.job.path.max_depth;
+    }
+
+    /// Some depths for the `job.threads` paths that are left. Launches are as large as at the
+    /// first, for there are never more paths than before.
+    void run_depths(WaveJob& job, RayCounts& counts) {
+        launcher_.clear_counters();
+        for (job.ahead = 0; job.ahead < depths_ahead && !all_end(job); ++job.ahead, ++job.depth) {
             launcher_.launch(WaveStage::extend, job);
             launcher_.launch(WaveStage::shade, job);
-            const WaveCounters filled = launcher_.take_counters(job);
-            job.count = filled.shadow;
-            if (filled.shadow > 0)
-                launcher_.launch(WaveStage::shadow, job);
-            counts.shadow += filled.shadow;
-            job.count = filled.next;
+            launcher_.launch(WaveStage::shadow, job);
             std::swap(job.wave.now, job.wave.next);
         }
-        job.count = job.device.batch.pixel_count;
-        launcher_.launch(WaveStage::accumulate, job);
+        const RunCounters filled = launcher_.counters();
+        for (const WaveCounters& depth : filled) { // zeros at depths that there were not
+            counts.bounce += depth.next;
+            counts.shadow += depth.shadow;
+        }
+        job.threads = filled[job.ahead - 1].next;
     }
 
     Launcher& launcher_;

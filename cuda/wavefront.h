@@ -9,6 +9,8 @@
 
 #include "cuda/render_kernel.h"
 
+#include <array>
+
 namespace plumb {
 
 /// A path between the stages. All paths of a wave are at the same depth.
@@ -26,10 +28,16 @@ struct alignas(16) ShadowEntry {
 };
 static_assert(sizeof(ShadowEntry) == 48);
 
-/// How many entries the queues have that the shade stage fills.
+/// How many entries the queues have that the shade stage fills at a depth.
 struct WaveCounters {
     std::uint32_t next = 0, shadow = 0;
 };
+
+/// Depths that are launched before the host asks how many paths are left: it would wait for each.
+inline constexpr std::size_t depths_ahead = 8;
+
+/// Of the depths of one such run.
+using RunCounters = std::array<WaveCounters, depths_ahead>;
 
 /// Memory of a wave, a slot each path of its batch.
 struct WaveView {
@@ -38,15 +46,21 @@ struct WaveView {
     std::uint32_t* now = nullptr;  ///< slots of the paths that live
     std::uint32_t* next = nullptr; ///< and of those that go on
     ShadowEntry* shadows = nullptr;
-    WaveCounters* counters = nullptr;
+    RunCounters* counters = nullptr;
 };
 
 /// What the stages are launched with.
 struct WaveJob {
     DeviceJob device; ///< batch: the samples of this wave
     WaveView wave;
-    std::uint32_t count = 0; ///< items of the launch
+    std::uint32_t threads = 0; ///< of the launch: as many as items, or more
     int depth = 1;
+    std::uint32_t ahead = 0; ///< depths of this run before this one; 0: a thread a path
+
+    [[nodiscard]] RT_HD std::uint32_t paths() const {
+        return ahead == 0 ? threads : (*wave.counters)[ahead - 1].next;
+    }
+    [[nodiscard]] RT_HD WaveCounters& filled() const { return (*wave.counters)[ahead]; }
 };
 
 namespace detail {
@@ -64,12 +78,12 @@ RT_HD inline std::uint32_t take_place(std::uint32_t& counter) {
 
 /// Item i: the camera ray of slot i.
 template <Features F> RT_HD void generate_thread(const WaveJob& job, GridPosition at) {
-    if (at.index() >= job.count)
+    if (at.index() >= job.device.batch.slots())
         return;
     const auto slot = static_cast<std::uint32_t>(at.index());
     const SlotSample sample(job.device.job.crop, job.device.batch, slot);
-    const Sample4 u = sample.sampler(job.device.job).group(0);
-    const CameraSample camera = camera_sample(job.device.job, sample.x, sample.y, {u.x[0], u.x[1]});
+    const CameraSample camera =
+        sample.camera(job.device.job, *job.device.filter, sample.sampler(job.device.job));
     job.wave.paths[slot] = {PathSteps<F>::start(camera.ray), {}, camera.weight};
     job.wave.now[slot] = slot;
 }
@@ -77,15 +91,16 @@ template <Features F> RT_HD void generate_thread(const WaveJob& job, GridPositio
 /// Item i: the closest hit of the i-th path of the queue.
 template <TriangleTest Test, CudaTree Tree>
 RT_HD void extend_thread(const WaveJob& job, GridPosition at) {
-    if (at.index() >= job.count)
+    if (at.index() >= job.paths())
         return;
     const TreeQuery<Test, Tree> query{job.device.trees};
-    job.wave.hits[at.index()] = query.closest(job.wave.paths[job.wave.now[at.index()]].path.ray);
+    const Ray ray = job.wave.paths[job.wave.now[at.index()]].path.ray;
+    job.wave.hits[at.index()] = query.closest(ray);
 }
 
 /// Item i: all that happens to the i-th path at its hit: one round of the loop in trace_path.
 template <Features F> RT_HD void shade_thread(const WaveJob& job, GridPosition at) {
-    if (at.index() >= job.count)
+    if (at.index() >= job.paths())
         return;
     const RenderJob& render = job.device.job;
     const WaveView& wave = job.wave;
@@ -108,24 +123,25 @@ template <Features F> RT_HD void shade_thread(const WaveJob& job, GridPosition a
     if (steps.samples_lights()) {
         const DirectLight direct = steps.direct_light(path, vertex, u.light_point, u.light);
         if (direct.counts)
-            wave.shadows[detail::take_place(wave.counters->shadow)] = {direct.shadow,
-                                                                       direct.radiance, slot};
+            wave.shadows[detail::take_place(job.filled().shadow)] = {direct.shadow, direct.radiance,
+                                                                     slot};
     }
     if (!steps.scatter(path, vertex, u.direction) ||
         !steps.survives(path.throughput, depth, u.roulette))
         return;
     state.path = path;
-    wave.next[detail::take_place(wave.counters->next)] = slot;
+    wave.next[detail::take_place(job.filled().next)] = slot;
 }
 
 /// Item i: the i-th shadow ray. A path has at most one a depth: no two threads meet in a slot.
 template <TriangleTest Test, CudaTree Tree>
 RT_HD void shadow_thread(const WaveJob& job, GridPosition at) {
-    if (at.index() >= job.count)
+    if (at.index() >= job.filled().shadow)
         return;
     const TreeQuery<Test, Tree> query{job.device.trees};
     const ShadowEntry& entry = job.wave.shadows[at.index()];
-    if (!query.occluded(entry.ray))
+    const Ray ray = entry.ray;
+    if (!query.occluded(ray))
         job.wave.paths[entry.slot].radiance += entry.radiance;
 }
 

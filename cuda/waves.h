@@ -39,6 +39,11 @@ struct SlotSample {
     [[nodiscard]] RT_HD Sampler sampler(const RenderJob& job) const {
         return {job.sampler.kind, job.sampler.seed, pixel_number(job, x, y), index};
     }
+    [[nodiscard]] RT_HD CameraSample camera(const RenderJob& job, const FilterTable& filter,
+                                            const Sampler& sampler) const {
+        const Sample4 u = sampler.group(0);
+        return camera_sample(job, filter, x, y, {u.x[0], u.x[1]});
+    }
 };
 
 /// Item i: adds the samples of pixel i of the batch to film[i], in their order.

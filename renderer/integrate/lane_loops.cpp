@@ -94,7 +94,7 @@ template <bool Usual>
     const RenderJob job = render_job; // a copy, which no lane can overwrite
     const std::size_t end = whole_vectors(n);
     for (std::size_t i = 0; i < end; ++i) {
-        const CameraSample camera = camera_sample(job, l.pixel_x[i], l.pixel_y[i],
+        const CameraSample camera = camera_sample(job, job.filter, l.pixel_x[i], l.pixel_y[i],
                                                   {l.direction_u.x[0][i], l.direction_u.x[1][i]});
         l.next_direction.set(i, camera.ray.direction);
         l.wo.set(i, PathSteps<box_profile>::start(camera.ray).wo);

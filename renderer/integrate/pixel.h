@@ -28,10 +28,12 @@ RT_HD inline std::uint32_t pixel_number(const RenderJob& job, int x, int y) {
            static_cast<std::uint32_t>(x);
 }
 
-/// A point on the film around the centre of pixel (x, y), for u uniform in [0,1)^2.
-RT_HD inline CameraSample camera_sample(const RenderJob& job, int x, int y, Vec2 u) {
-    const FilterSample fx = sample_filter(job.filter, u.x);
-    const FilterSample fy = sample_filter(job.filter, u.y);
+/// A point on the film around the centre of pixel (x, y), for u uniform in [0,1)^2. `filter` equals
+/// job.filter: a GPU has it in other memory than the job.
+RT_HD inline CameraSample camera_sample(const RenderJob& job, const FilterTable& filter, int x,
+                                        int y, Vec2 u) {
+    const FilterSample fx = sample_filter(filter, u.x);
+    const FilterSample fy = sample_filter(filter, u.y);
     const Vec2 image{(static_cast<float>(x) + 0.5f + fx.offset) / static_cast<float>(job.width),
                      (static_cast<float>(y) + 0.5f + fy.offset) / static_cast<float>(job.height)};
     return {job.scene.camera.ray_through(image), fx.weight * fy.weight};
@@ -40,11 +42,11 @@ RT_HD inline CameraSample camera_sample(const RenderJob& job, int x, int y, Vec2
 /// Weighted radiance of sample `index` of pixel (x, y) of the full film: a pure function of its
 /// arguments. The mean over all samples is the filtered image.
 template <Features F, class Query>
-RT_HD Rgb sample_pixel(const RenderJob& job, const Query& query, int x, int y, std::uint32_t index,
-                       RayCounts& counts) {
+Rgb sample_pixel(const RenderJob& job, const Query& query, int x, int y, std::uint32_t index,
+                 RayCounts& counts) {
     const Sampler sampler(job.sampler.kind, job.sampler.seed, pixel_number(job, x, y), index);
     const Sample4 u = sampler.group(0);
-    const CameraSample camera = camera_sample(job, x, y, {u.x[0], u.x[1]});
+    const CameraSample camera = camera_sample(job, job.filter, x, y, {u.x[0], u.x[1]});
     const PathSteps<F> steps(job.scene, job.path);
     return trace_path(steps, query, camera.ray, sampler, counts) * camera.weight;
 }

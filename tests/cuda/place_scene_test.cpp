@@ -85,6 +85,20 @@ TEST_F(PlaceScene, TheCopyHoldsWhatTheSceneHolds) {
     EXPECT_EQ(copy.light_cdf[1], 1);
 }
 
+TEST_F(PlaceScene, AJobsFilterLiesInTheBlockToo) {
+    RenderJob job;
+    job.scene = view;
+    job.filter.kind = FilterKind::gaussian;
+    job.filter.cdf[100] = 0.25f;
+    HostBlock block(placed_size(job, {}));
+    Arena arena = block.arena();
+    const DeviceJob device = place(job, {}, arena);
+    ASSERT_TRUE(block.holds(device.filter, sizeof(FilterTable)));
+    EXPECT_EQ(device.filter->kind, FilterKind::gaussian);
+    EXPECT_EQ(device.filter->cdf[100], 0.25f);
+    EXPECT_TRUE(block.holds(device.job.scene.lights));
+}
+
 TEST(PlaceTree, ATreeIsCopiedWhole) {
     const std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     const std::vector<Triangle> triangles(20, Triangle{0, 1, 2});

@@ -216,7 +216,7 @@ TEST(LongPaths, TakeAsMuchStackAsShortOnesUnlikeRecursion) {
     const LoadedScene furnace(PLUMB_SOURCE_DIR "/scenes/furnace.xml", setup);
     const RenderJob job = furnace.job();
     const Sampler sampler(job.sampler.kind, job.sampler.seed, 0, 0);
-    const CameraSample camera = camera_sample(job, 0, 0, {0.5f, 0.5f});
+    const CameraSample camera = camera_sample(job, job.filter, 0, 0, {0.5f, 0.5f});
     const PathSteps<full_profile> steps(job.scene, job.path);
 
     const StackGauge loop(furnace.intersector());
