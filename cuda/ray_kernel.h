@@ -22,10 +22,11 @@ RT_HD void trace_ray_thread(const RayJob& job, GridPosition at) {
     if (i >= job.count)
         return;
     const TreeQuery<Test, Tree> query{job.trees};
+    const Ray ray = job.rays[i];
     if constexpr (AnyHit)
-        job.found[i] = query.occluded(job.rays[i]) ? 1 : 0;
+        job.found[i] = query.occluded(ray) ? 1 : 0;
     else
-        job.hits[i] = query.closest(job.rays[i]);
+        job.hits[i] = query.closest(ray);
 }
 
 } // namespace plumb

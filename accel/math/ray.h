@@ -27,9 +27,10 @@ inline constexpr float min_direction = std::numeric_limits<float>::min();
 /// What every Intersector accepts: finite origin and direction of at most 1.8e18 a component, one
 /// component of the direction at least min_direction, 0 <= tmin <= tmax. Any other ray is a miss.
 [[nodiscard]] RT_HD inline bool is_valid(const Ray& ray) {
-    return is_finite(ray.origin) && is_finite(ray.direction) &&
-           max_component(abs(ray.direction)) >= min_direction && ray.tmin >= 0 &&
-           ray.tmin <= ray.tmax;
+    // No test waits for another one: nearly all rays pass them all.
+    return is_finite(ray.origin) & is_finite(ray.direction) &
+           (max_component(abs(ray.direction)) >= min_direction) & (ray.tmin >= 0) &
+           (ray.tmin <= ray.tmax);
 }
 
 /// Closest intersection. On a triangle (a, b, c) the point is (1-u-v) a + u b + v c; on a sphere u

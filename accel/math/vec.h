@@ -75,8 +75,8 @@ RT_HD constexpr float rounding_bound(int n) {
 }
 
 RT_HD inline bool is_finite(Vec3 a) {
-    return std::fabs(a.x) <= max_coordinate && std::fabs(a.y) <= max_coordinate &&
-           std::fabs(a.z) <= max_coordinate;
+    return (std::fabs(a.x) <= max_coordinate) & (std::fabs(a.y) <= max_coordinate) &
+           (std::fabs(a.z) <= max_coordinate);
 }
 
 } // namespace plumb
