@@ -54,8 +54,9 @@ class PlacedJob {
 /// Film and counters of a chunk.
 class DeviceFilm {
   public:
-    DeviceFilm(const DeviceJob& device, PathKernel kernel, CudaTree tree, std::size_t pixels)
-        : device_(device), kernel_(kernel), tree_(tree), film_(pixels), counts_(1) {
+    DeviceFilm(const DeviceJob& device, PathKernel kernel, const CudaSettings& settings,
+               std::size_t pixels)
+        : device_(device), kernel_(kernel), settings_(settings), film_(pixels), counts_(1) {
         device_.film = film_.data();
         device_.counts = counts_.data();
     }
@@ -69,7 +70,7 @@ class DeviceFilm {
   protected:
     DeviceJob device_;
     PathKernel kernel_;
-    CudaTree tree_;
+    CudaSettings settings_;
     DeviceBuffer<FilmPixel> film_;
     DeviceBuffer<RayCounts> counts_;
 };
@@ -77,15 +78,16 @@ class DeviceFilm {
 /// Runs batches by the megakernel: an executor of BatchRenderer.
 class DeviceExecutor : public DeviceFilm {
   public:
-    DeviceExecutor(const DeviceJob& device, PathKernel kernel, CudaTree tree, std::size_t pixels)
-        : DeviceFilm(device, kernel, tree, pixels), samples_(slots_for(pixels)) {
+    DeviceExecutor(const DeviceJob& device, PathKernel kernel, const CudaSettings& settings,
+                   std::size_t pixels)
+        : DeviceFilm(device, kernel, settings, pixels), samples_(slots_for(pixels)) {
         device_.samples = samples_.data();
     }
 
     RayCounts run(const Batch& batch) {
         in_waves(batch, static_cast<std::uint32_t>(samples_.size()), [&](const Batch& wave) {
             device_.batch = wave;
-            launch_path_kernel(device_, kernel_, tree_);
+            launch_path_kernel(device_, kernel_, settings_.tree);
         });
         RT_CUDA_CHECK(cudaDeviceSynchronize());
         RayCounts counts;
@@ -96,7 +98,7 @@ class DeviceExecutor : public DeviceFilm {
         return film_.size() * sizeof(FilmPixel) + samples_.size() * sizeof(Rgb);
     }
     [[nodiscard]] std::vector<KernelReport> kernels() const {
-        return path_kernel_reports(kernel_, tree_);
+        return path_kernel_reports(kernel_, settings_.tree);
     }
 
   private:
@@ -106,8 +108,9 @@ class DeviceExecutor : public DeviceFilm {
 /// Runs batches by the wavefront: another, and the launcher of its WaveRunner.
 class DeviceWaves : public DeviceFilm {
   public:
-    DeviceWaves(const DeviceJob& device, PathKernel kernel, CudaTree tree, std::size_t pixels)
-        : DeviceFilm(device, kernel, tree, pixels), slots_(slots_for(pixels)), paths_(slots_),
+    DeviceWaves(const DeviceJob& device, PathKernel kernel, const CudaSettings& settings,
+                std::size_t pixels)
+        : DeviceFilm(device, kernel, settings, pixels), slots_(slots_for(pixels)), paths_(slots_),
           hits_(slots_), now_(slots_), next_(slots_), shadows_(slots_), counters_(1) {}
 
     void clear(std::uint32_t pixels) {
@@ -118,12 +121,12 @@ class DeviceWaves : public DeviceFilm {
         device_.batch = batch;
         const WaveView wave{paths_.data(), hits_.data(),    now_.data(),
                             next_.data(),  shadows_.data(), counters_.data()};
-        rays_ += WaveRunner(*this, wave, slots_).run(device_);
+        rays_ += WaveRunner(*this, wave, slots_, settings_.schedule).run(device_);
         RT_CUDA_CHECK(cudaDeviceSynchronize());
         return rays_;
     }
     void launch(WaveStage stage, const WaveJob& job) {
-        launch_wave_stage(stage, job, kernel_, tree_);
+        launch_wave_stage(stage, job, kernel_, settings_.tree);
     }
     void clear_counters() { counters_.clear(1); }
     [[nodiscard]] RunCounters counters() const {
@@ -137,7 +140,7 @@ class DeviceWaves : public DeviceFilm {
                          sizeof(ShadowEntry));
     }
     [[nodiscard]] std::vector<KernelReport> kernels() const {
-        return wave_kernel_reports(kernel_, tree_);
+        return wave_kernel_reports(kernel_, settings_);
     }
 
   private:
@@ -154,7 +157,7 @@ struct Work {
     const RenderJob& job;
     const DeviceJob& device;
     PathKernel kernel;
-    CudaTree tree;
+    const CudaSettings& settings;
     const RenderOptions& options;
     RenderStats& stats;
     DeviceReport& report;
@@ -164,7 +167,7 @@ struct Work {
                             static_cast<std::uint64_t>(job.crop.height);
         const auto chunk =
             static_cast<std::uint32_t>(std::min<std::uint64_t>(chunk_pixels, pixels));
-        Executor executor(device, kernel, tree, chunk);
+        Executor executor(device, kernel, settings, chunk);
         report.working_bytes = executor.bytes();
         report.kernels = executor.kernels();
         return BatchRenderer(job, options, executor, stats, first_paths).render(chunk);
@@ -204,7 +207,7 @@ Film render_on_cuda(const RenderJob& job, const Features& needed, const TreeView
     told.scene_bytes = placed.bytes();
     DeviceJob device = placed.device();
     device.with_variance = options.variance;
-    const Work work{job, device, kernel, settings.tree, options, stats, told};
+    const Work work{job, device, kernel, settings, options, stats, told};
     return settings.schedule == CudaSchedule::megakernel ? work.run<DeviceExecutor>()
                                                          : work.run<DeviceWaves>();
 }

@@ -47,6 +47,7 @@ struct DeviceRays::State {
     std::optional<DeviceBuffer<Ray>> rays{};
     std::optional<DeviceBuffer<Hit>> hits{};
     std::optional<DeviceBuffer<std::uint8_t>> found{};
+    std::optional<DeviceBuffer<std::uint32_t>> taken{};
     std::optional<KernelClock> clock{};
 };
 
@@ -61,6 +62,8 @@ DeviceRays::DeviceRays(const TreeViews& trees, CudaTree tree, TriangleTest test)
         RT_CUDA_CHECK(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice));
     });
     state_->job.trees = place(trees, arena);
+    state_->taken.emplace(1);
+    state_->job.taken = state_->taken->data();
 }
 
 DeviceRays::~DeviceRays() = default;
@@ -81,19 +84,26 @@ void DeviceRays::load(std::span<const Ray> rays) {
     s.job.found = s.found->data();
 }
 
-double DeviceRays::trace(bool any_hit) {
-    if (!state_->clock)
-        state_->clock.emplace();
-    state_->clock->begin();
-    launch_rays(state_->job, state_->tree, state_->test, any_hit);
-    return state_->clock->end();
+double DeviceRays::trace(bool any_hit, RayThreads threads) {
+    State& s = *state_;
+    if (!s.clock)
+        s.clock.emplace();
+    s.taken->clear(1);
+    s.clock->begin();
+    if (threads == RayThreads::persistent)
+        launch_rays_persistently(s.job, s.test);
+    else
+        launch_rays(s.job, s.tree, s.test, any_hit);
+    return s.clock->end();
 }
 
 void DeviceRays::fetch(std::span<Hit> hits) const { state_->hits->copy_to(hits); }
 void DeviceRays::fetch(std::span<std::uint8_t> found) const { state_->found->copy_to(found); }
 
-std::vector<KernelReport> DeviceRays::kernels(bool any_hit) const {
-    return {ray_kernel_report(state_->tree, state_->test, any_hit)};
+std::vector<KernelReport> DeviceRays::kernels(bool any_hit, RayThreads threads) const {
+    return {threads == RayThreads::persistent
+                ? persistent_kernel_report(state_->test)
+                : ray_kernel_report(state_->tree, state_->test, any_hit)};
 }
 
 } // namespace plumb

@@ -15,10 +15,10 @@ class DeviceRays {
     DeviceRays& operator=(const DeviceRays&) = delete;
 
     void load(std::span<const Ray> rays);
-    double trace(bool any_hit);
+    double trace(bool any_hit, RayThreads threads);
     void fetch(std::span<Hit> hits) const;
     void fetch(std::span<std::uint8_t> found) const;
-    [[nodiscard]] std::vector<KernelReport> kernels(bool any_hit) const;
+    [[nodiscard]] std::vector<KernelReport> kernels(bool any_hit, RayThreads threads) const;
 
   private:
     struct State;

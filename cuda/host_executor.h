@@ -1,6 +1,7 @@
 /// \file  Renders by the GPU's own steps on the host: placed copies, batches, grids of threads.
 #pragma once
 
+#include "cuda/host_warp.h"
 #include "cuda/place_scene.h"
 #include "cuda/render_batches.h"
 #include "cuda/wave_runner.h"
@@ -129,22 +130,27 @@ template <Features F, TriangleTest Test, CudaTree Tree> class HostExecutor : pub
 /// The wavefront: another, and the launcher of its WaveRunner.
 template <Features F, TriangleTest Test, CudaTree Tree> class HostWaves : public HostFilm {
   public:
-    HostWaves(const DeviceJob& device, const HostGrid& grid)
-        : HostFilm(device), grid_(grid), slots_(slots_of(grid, device)), paths_(slots_),
-          hits_(slots_), now_(slots_), next_(slots_), shadows_(slots_) {}
+    HostWaves(const DeviceJob& device, const HostGrid& grid, CudaSchedule schedule)
+        : HostFilm(device), grid_(grid), schedule_(schedule), slots_(slots_of(grid, device)),
+          paths_(slots_), hits_(slots_), now_(slots_), next_(slots_), shadows_(slots_) {}
 
     RayCounts run(const Batch& batch) {
         device_.batch = batch;
         const WaveView wave{paths_.data(), hits_.data(),    now_.data(),
                             next_.data(),  shadows_.data(), &counters_};
-        counts_ += WaveRunner(*this, wave, slots_).run(device_);
+        counts_ += WaveRunner(*this, wave, slots_, schedule_).run(device_);
         return counts_;
     }
     void launch(WaveStage stage, const WaveJob& job) {
         ++launches_;
+        if constexpr (Tree == CudaTree::wide)
+            if (stage == WaveStage::extend_persistently)
+                return trace_persistently_on_host<Test>(job.device.trees.wide, ExtendItems{job},
+                                                        job.filled().taken);
         run_grid_on_host(grid_, job.threads, [&](GridPosition at) {
             switch (stage) {
             case WaveStage::generate: return generate_thread<F>(job, at);
+            case WaveStage::extend_persistently: // of the wide tree only
             case WaveStage::extend: return extend_thread<Test, Tree>(job, at);
             case WaveStage::shade: return shade_thread<F>(job, at);
             case WaveStage::shadow: return shadow_thread<Test, Tree>(job, at);
@@ -157,6 +163,7 @@ template <Features F, TriangleTest Test, CudaTree Tree> class HostWaves : public
 
   private:
     HostGrid grid_;
+    CudaSchedule schedule_;
     std::uint32_t slots_;
     std::vector<PathState> paths_;
     std::vector<Hit> hits_;

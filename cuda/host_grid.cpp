@@ -10,14 +10,15 @@ struct Work {
     const RenderOptions& options;
     RenderStats& stats;
 
-    template <class Executor> [[nodiscard]] Film run() const {
-        Executor executor(device, grid);
+    template <class Executor, class... Schedule>
+    [[nodiscard]] Film run(Schedule... schedule) const {
+        Executor executor(device, grid, schedule...);
         return BatchRenderer(job, options, executor, stats).render(grid.chunk_pixels);
     }
     template <Features F, TriangleTest Test, CudaTree Tree>
     [[nodiscard]] Film scheduled(CudaSchedule schedule) const {
         return schedule == CudaSchedule::megakernel ? run<HostExecutor<F, Test, Tree>>()
-                                                    : run<HostWaves<F, Test, Tree>>();
+                                                    : run<HostWaves<F, Test, Tree>>(schedule);
     }
     template <Features F, TriangleTest Test>
     [[nodiscard]] Film with(const CudaSettings& settings) const {

@@ -9,6 +9,11 @@ namespace {
 
 constexpr std::uint32_t threads_per_block = 128;
 
+/// Blocks of ray kernels on a multiprocessor at a time. ptxas finds registers for so many if asked;
+/// unasked, closest hits in the wide tree take 83 each, with which there are five blocks.
+constexpr int closest_blocks = 6;
+template <CudaTree Tree> constexpr int any_hit_blocks = Tree == CudaTree::binary ? 8 : 7;
+
 /// Registers and occupancy of a kernel on the current device.
 inline KernelReport report_of(const void* kernel, const char* name) {
     cudaFuncAttributes attributes;

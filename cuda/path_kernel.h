@@ -18,6 +18,7 @@ void check_path_kernel();
 
 /// What the kernels of a render take of the device.
 [[nodiscard]] std::vector<KernelReport> path_kernel_reports(PathKernel kind, CudaTree tree);
-[[nodiscard]] std::vector<KernelReport> wave_kernel_reports(PathKernel kind, CudaTree tree);
+[[nodiscard]] std::vector<KernelReport> wave_kernel_reports(PathKernel kind,
+                                                            const CudaSettings& settings);
 
 } // namespace plumb

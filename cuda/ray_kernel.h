@@ -3,6 +3,7 @@
 
 #include "cuda/device_tree.h"
 #include "cuda/grid.h"
+#include "cuda/persistent.h"
 
 namespace plumb {
 
@@ -11,8 +12,20 @@ struct RayJob {
     TreeViews trees;
     const Ray* rays = nullptr;
     std::uint64_t count = 0;
-    Hit* hits = nullptr;           ///< of closest queries
-    std::uint8_t* found = nullptr; ///< of any-hit queries: 1 or 0
+    Hit* hits = nullptr;            ///< of closest queries
+    std::uint8_t* found = nullptr;  ///< of any-hit queries: 1 or 0
+    std::uint32_t* taken = nullptr; ///< by persistent threads: 0 before a launch
+};
+
+/// All rays of a job, fewer than 2^31, for persistent threads.
+struct RayItems {
+    const RayJob& job;
+
+    [[nodiscard]] RT_HD std::uint32_t count() const {
+        return static_cast<std::uint32_t>(job.count);
+    }
+    [[nodiscard]] RT_HD Ray ray(std::uint32_t i) const { return job.rays[i]; }
+    RT_HD void store(std::uint32_t i, const Hit& hit) const { job.hits[i] = hit; }
 };
 
 /// Item i: ray i.

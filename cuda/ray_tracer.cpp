@@ -43,9 +43,12 @@ class HostRays {
         job_.hits = hits_.data();
         job_.found = found_.data();
     }
-    double trace(bool any_hit) {
+    double trace(bool any_hit, RayThreads threads) {
         const auto start = Clock::now();
-        if (test_ == TriangleTest::watertight)
+        if (threads == RayThreads::persistent)
+            test_ == TriangleTest::watertight ? persistently<TriangleTest::watertight>()
+                                              : persistently<TriangleTest::moeller_trumbore>();
+        else if (test_ == TriangleTest::watertight)
             any_hit ? with<TriangleTest::watertight, true>()
                     : with<TriangleTest::watertight, false>();
         else
@@ -57,9 +60,16 @@ class HostRays {
     void fetch(std::span<std::uint8_t> found) const {
         std::copy_n(found_.begin(), found.size(), found.begin());
     }
-    [[nodiscard]] std::vector<KernelReport> kernels(bool /*any_hit*/) const { return {}; }
+    [[nodiscard]] std::vector<KernelReport> kernels(bool /*any_hit*/,
+                                                    RayThreads /*threads*/) const {
+        return {};
+    }
 
   private:
+    template <TriangleTest Test> void persistently() {
+        std::uint32_t taken = 0;
+        trace_persistently_on_host<Test>(job_.trees.wide, RayItems{job_}, taken);
+    }
     template <TriangleTest Test, bool AnyHit> void with() {
         run_grid_on_host(HostGrid{}, job_.count, [&](GridPosition at) {
             if (tree_ == CudaTree::binary)
@@ -129,8 +139,8 @@ TraversalCounts RayTracer::count(std::span<const Ray> rays, bool any_hit) const 
 void RayTracer::load(std::span<const Ray> rays) {
     std::visit([rays](auto& side) { side.load(rays); }, side_->rays);
 }
-double RayTracer::trace(bool any_hit) {
-    return std::visit([any_hit](auto& side) { return side.trace(any_hit); }, side_->rays);
+double RayTracer::trace(bool any_hit, RayThreads threads) {
+    return std::visit([=](auto& side) { return side.trace(any_hit, threads); }, side_->rays);
 }
 void RayTracer::fetch(std::span<Hit> hits) const {
     std::visit([hits](const auto& side) { side.fetch(hits); }, side_->rays);
@@ -138,8 +148,9 @@ void RayTracer::fetch(std::span<Hit> hits) const {
 void RayTracer::fetch(std::span<std::uint8_t> found) const {
     std::visit([found](const auto& side) { side.fetch(found); }, side_->rays);
 }
-std::vector<KernelReport> RayTracer::kernels(bool any_hit) const {
-    return std::visit([any_hit](const auto& side) { return side.kernels(any_hit); }, side_->rays);
+std::vector<KernelReport> RayTracer::kernels(bool any_hit, RayThreads threads) const {
+    return std::visit([=](const auto& side) { return side.kernels(any_hit, threads); },
+                      side_->rays);
 }
 
 struct CudaIntersector::Locked {

@@ -33,7 +33,8 @@ class RayTracer {
     /// Makes `rays` the batch of the queries that follow.
     void load(std::span<const Ray> rays);
     /// Traces the batch; returns the seconds that the kernel took (on the host: the loop).
-    double trace(bool any_hit);
+    /// Persistent threads find closest hits in the wide tree only.
+    double trace(bool any_hit, RayThreads threads = RayThreads::one_a_ray);
     /// What the last trace() found.
     void fetch(std::span<Hit> hits) const;
     void fetch(std::span<std::uint8_t> found) const;
@@ -42,7 +43,8 @@ class RayTracer {
     [[nodiscard]] TraversalCounts count(std::span<const Ray> rays, bool any_hit) const;
 
     /// What the kernel of closest or any-hit queries takes; nothing on the host.
-    [[nodiscard]] std::vector<KernelReport> kernels(bool any_hit) const;
+    [[nodiscard]] std::vector<KernelReport>
+    kernels(bool any_hit, RayThreads threads = RayThreads::one_a_ray) const;
 
   private:
     struct Side;

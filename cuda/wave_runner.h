@@ -7,7 +7,14 @@
 
 namespace plumb {
 
-enum class WaveStage : std::uint8_t { generate, extend, shade, shadow, accumulate };
+enum class WaveStage : std::uint8_t {
+    generate,
+    extend,
+    extend_persistently, ///< the same by persistent threads: as many as the device holds, or fewer
+    shade,
+    shadow,
+    accumulate
+};
 
 /// Runs batches as waves of at most `slots` paths. `Launcher` has
 ///     void launch(WaveStage stage, const WaveJob& job);  // job.threads; may return early
@@ -15,8 +22,10 @@ enum class WaveStage : std::uint8_t { generate, extend, shade, shadow, accumulat
 ///     RunCounters counters();                            // waits for all stages
 template <class Launcher> class WaveRunner {
   public:
-    WaveRunner(Launcher& launcher, const WaveView& wave, std::uint32_t slots)
-        : launcher_(launcher), wave_(wave), slots_(slots) {}
+    WaveRunner(Launcher& launcher, const WaveView& wave, std::uint32_t slots,
+               CudaSchedule schedule = CudaSchedule::wavefront)
+        : launcher_(launcher), wave_(wave), slots_(slots),
+          persistent_(schedule == CudaSchedule::persistent) {}
 
     /// `device.batch` must have at most `slots` pixels. Returns the rays that were traced.
     RayCounts run(const DeviceJob& device) {
@@ -51,7 +60,10 @@ template <class Launcher> class WaveRunner {
     void run_depths(WaveJob& job, RayCounts& counts) {
         launcher_.clear_counters();
         for (job.ahead = 0; job.ahead < depths_ahead && !all_end(job); ++job.ahead, ++job.depth) {
-            launcher_.launch(WaveStage::extend, job);
+            // Camera rays run alike: no lane waits long for another.
+            launcher_.launch(persistent_ && job.depth > 1 ? WaveStage::extend_persistently
+                                                          : WaveStage::extend,
+                             job);
             launcher_.launch(WaveStage::shade, job);
             launcher_.launch(WaveStage::shadow, job);
             std::swap(job.wave.now, job.wave.next);
@@ -67,6 +79,7 @@ template <class Launcher> class WaveRunner {
     Launcher& launcher_;
     WaveView wave_;
     std::uint32_t slots_;
+    bool persistent_;
 };
 
 } // namespace plumb

@@ -7,6 +7,7 @@
 /// and pixels add the slots of their samples in order.
 #pragma once
 
+#include "cuda/persistent.h"
 #include "cuda/render_kernel.h"
 
 #include <array>
@@ -28,9 +29,10 @@ struct alignas(16) ShadowEntry {
 };
 static_assert(sizeof(ShadowEntry) == 48);
 
-/// How many entries the queues have that the shade stage fills at a depth.
+/// How many entries the queues have that the shade stage fills at a depth, and how many rays of the
+/// queue before were taken by persistent threads.
 struct WaveCounters {
-    std::uint32_t next = 0, shadow = 0;
+    std::uint32_t next = 0, shadow = 0, taken = 0;
 };
 
 /// Depths that are launched before the host asks how many paths are left: it would wait for each.
@@ -97,6 +99,17 @@ RT_HD void extend_thread(const WaveJob& job, GridPosition at) {
     const Ray ray = job.wave.paths[job.wave.now[at.index()]].path.ray;
     job.wave.hits[at.index()] = query.closest(ray);
 }
+
+/// The same for persistent threads.
+struct ExtendItems {
+    const WaveJob& job;
+
+    [[nodiscard]] RT_HD std::uint32_t count() const { return job.paths(); }
+    [[nodiscard]] RT_HD Ray ray(std::uint32_t i) const {
+        return job.wave.paths[job.wave.now[i]].path.ray;
+    }
+    RT_HD void store(std::uint32_t i, const Hit& hit) const { job.wave.hits[i] = hit; }
+};
 
 /// Item i: all that happens to the i-th path at its hit: one round of the loop in trace_path.
 template <Features F> RT_HD void shade_thread(const WaveJob& job, GridPosition at) {

@@ -31,7 +31,8 @@ const Names<Device> device_names{
     {"cpu", Device::cpu}, {"cuda", Device::cuda}, {"auto", Device::automatic}};
 const Names<CudaTree> cuda_tree_names{{"binary", CudaTree::binary}, {"wide", CudaTree::wide}};
 const Names<CudaSchedule> cuda_schedule_names{{"megakernel", CudaSchedule::megakernel},
-                                              {"wavefront", CudaSchedule::wavefront}};
+                                              {"wavefront", CudaSchedule::wavefront},
+                                              {"persistent", CudaSchedule::persistent}};
 const Names<Estimator> estimator_names{
     {"mis", Estimator::mis}, {"light", Estimator::light}, {"bsdf", Estimator::bsdf}};
 const Names<int> reuse_names{{"1", 1}, {"2", 2}, {"4", 4}};
@@ -150,9 +151,10 @@ void add_speed_flags(CLI::App& app, Options& options) {
                "Where to render; auto takes a GPU where there is one [cpu]");
     add_choice(app, "--cuda-tree", options.cuda.tree, cuda_tree_names,
                "Tree that a GPU traverses; the same bits [wide]");
-    add_choice(app, "--cuda-schedule", options.cuda.schedule, cuda_schedule_names,
-               "One kernel for whole paths on a GPU, or one for each step; the same bits "
-               "[wavefront]");
+    add_choice(
+        app, "--cuda-schedule", options.cuda.schedule, cuda_schedule_names,
+        "One kernel for whole paths on a GPU, one for each step, or likewise with persistent "
+        "threads (wide tree only); the same bits [wavefront]");
     add_count(app, "--threads", options.threads, 1, 1024, "Threads [all cores]");
     app.add_flag("--full-profile", options.full_profile,
                  "Use the general kernel whatever the scene needs (same bits, slower)");
@@ -270,6 +272,8 @@ void check_contradictions(const Options& options) {
                                    "moeller-trumbore needs --accel=naive or --accel=sah");
     if (options.device == Device::cuda && options.accel != AccelKind::sah)
         throw CLI::ValidationError("--device", "cuda needs --accel=sah");
+    if (options.cuda.schedule == CudaSchedule::persistent && options.cuda.tree != CudaTree::wide)
+        throw CLI::ValidationError("--cuda-schedule", "persistent needs --cuda-tree=wide");
     if (options.validate == options.accel)
         throw CLI::ValidationError("--validate", fmt::format("compares {} with itself: choose "
                                                              "another --accel or --validate",

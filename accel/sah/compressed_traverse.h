@@ -4,170 +4,14 @@
 /// Ylitie, Karras, Laine 2017, algorithm 1: children are met in the order of their slots, turned by
 /// the signs of the ray's direction; what is still to be done of one node is a word of bits. The
 /// hit is the same for any order (see sah_traverse.h).
-///
-/// A plane's distance is q a + b with a = step inv and b = (origin - ray origin) inv. A byte q
-/// becomes a number by being put between others: v = 1 + q 2^-15 is one instruction of a device,
-/// where converting q takes two or three. So the distance is v A + B with A = 2^15 a and B = b - A,
-/// for each of 48 planes. With u = 2^-24, b errs by 3u |b| and q a by 2u |q a|, B by u (|b| + |A|),
-/// the product by 1.01u |A| and the sum by u (|b| + |q a|): at most 5u |b| + 2.1u |A| together.
-/// slab_interval of the original box errs by 2u of the distance, and 35u on its padded far side.
-/// Near planes are moved nearer by 12u |b| + 6u |A|, 1 % of a step of the grid, and far ones
-/// farther by 60u |b| + 6u |A|, so no box is passed over that slab_interval enters. Rays and scenes
-/// of extreme size, and rays parallel to an axis, take slab_interval itself.
 #pragma once
 
 #include "accel/math/bits.h"
-#include "accel/sah/compressed_view.h"
+#include "accel/sah/compressed_test.h"
 #include "accel/sah/sah_traverse.h"
 
 namespace plumb {
 namespace detail {
-
-/// a * b + c, rounded once or twice: for boxes only.
-RT_HD inline float about_fused(float a, float b, float c) {
-#ifdef __CUDA_ARCH__
-    return __fmaf_rn(a, b, c);
-#else
-    return a * b + c;
-#endif
-}
-
-/// 1 + q 2^-15 for byte i of a word, exactly. `one`: the bits of 1.0f.
-RT_HD inline float with_byte(std::uint32_t word, std::uint32_t i, std::uint32_t one) {
-#ifdef __CUDA_ARCH__
-    return std::bit_cast<float>(__byte_perm(word, one, 0x7604u | i << 4));
-#else
-    return std::bit_cast<float>(one | ((word >> (8 * i)) & 255u) << 8);
-#endif
-}
-
-/// The largest of `from` >= 0 and three numbers, and the smallest of `to` >= 0 and three, none of
-/// them a NaN. Their bits are compared as integers, of which a device takes three in an
-/// instruction: where all is positive that is the order of the numbers, and a negative end of an
-/// interval that starts at 0 or later stays negative, or becomes -0, which only visits a box more.
-RT_HD inline float largest(float from, float x, float y, float z) {
-    const auto bits = [](float a) { return std::bit_cast<std::int32_t>(a); };
-    const auto larger = [](std::int32_t a, std::int32_t b) { return a > b ? a : b; };
-#ifdef __CUDA_ARCH__
-    return std::bit_cast<float>(__vimax3_s32(larger(bits(from), bits(x)), bits(y), bits(z)));
-#else
-    return std::bit_cast<float>(larger(larger(bits(from), bits(x)), larger(bits(y), bits(z))));
-#endif
-}
-RT_HD inline float smallest(float to, float x, float y, float z) {
-    const auto bits = [](float a) { return std::bit_cast<std::int32_t>(a); };
-    const auto smaller = [](std::int32_t a, std::int32_t b) { return a < b ? a : b; };
-#ifdef __CUDA_ARCH__
-    return std::bit_cast<float>(__vimin3_s32(smaller(bits(to), bits(x)), bits(y), bits(z)));
-#else
-    return std::bit_cast<float>(smaller(smaller(bits(to), bits(x)), smaller(bits(y), bits(z))));
-#endif
-}
-
-/// What is left to visit of the children of a node: bits 24 to 31, bit 24 + (slot ^ turn); the
-/// highest comes first. Bits 0 to 7: which slots hold nodes.
-struct NodeGroup {
-    std::uint32_t first, bits;
-
-    static constexpr std::uint32_t todo = 0xff000000u;
-};
-
-/// Whether the distances q A + B neither overflow nor are undefined.
-RT_HD inline bool is_plain(const Ray& ray, float reach) {
-    constexpr float large = 0x1p40f, small = 0x1p-40f;
-    const Vec3 o = abs(ray.origin), d = abs(ray.direction);
-    return reach <= large && max_component(o) <= large && max_component(d) <= large &&
-           d.x >= small && d.y >= small && d.z >= small;
-}
-
-/// Tests the boxes of a node.
-class CompressedTest {
-  public:
-    RT_HD CompressedTest(const PreparedRay& ray, bool plain, std::uint32_t one)
-        : slab_(ray.slab), tmin_(ray.tmin), tmax_(ray.tmax), plain_(plain), one_(one),
-          turn_(7u ^ ((ray.slab.negative[0] ? 1u : 0u) | (ray.slab.negative[1] ? 2u : 0u) |
-                      (ray.slab.negative[2] ? 4u : 0u))) {}
-
-    RT_HD void limit(float tmax) { tmax_ = tmax; }
-    [[nodiscard]] RT_HD std::uint32_t turn() const { return turn_; }
-
-    /// Bits 0 to 23: primitives of the leaves that are entered; 24 to 31: as in NodeGroup. `node`
-    /// and `in_memory` are the same: a loop over the slots of a copy would keep it out of
-    /// registers.
-    [[nodiscard]] RT_HD std::uint32_t operator()(const CompressedNode& node,
-                                                 const CompressedNode& in_memory) const {
-        return plain_ ? plain(node) : careful(in_memory);
-    }
-
-  private:
-    /// The bits of four slots: which they set where they are entered, and where.
-    struct Marks {
-        std::uint32_t ones, place; ///< a byte a slot
-
-        RT_HD Marks(std::uint32_t meta, std::uint32_t turn) {
-            const std::uint32_t inner = (meta & (meta << 1)) & 0x10101010u; // place >= 24
-            const std::uint32_t whole = (inner >> 4) * 0xffu;
-            ones = (meta >> 5) & 0x07070707u;
-            place = (meta ^ (whole & (turn * 0x01010101u))) & 0x1f1f1f1fu;
-        }
-        [[nodiscard]] RT_HD std::uint32_t bits(std::uint32_t i) const {
-            return ((ones >> (8 * i)) & 255u) << ((place >> (8 * i)) & 31u);
-        }
-    };
-
-    [[nodiscard]] RT_HD std::uint32_t plain(const CompressedNode& node) const {
-        float a[3], near_b[3], far_b[3];
-        for (std::uint32_t axis = 0; axis < 3; ++axis) {
-            const auto i = static_cast<int>(axis);
-            const float inverse = slab_.inv_direction[i];
-            a[axis] = node.step(axis) * (0x1p15f * inverse);
-            const float b = (node.origin[axis] - slab_.origin[i]) * inverse;
-            const float moved = b - a[axis];
-            const float least = 6 * unit_roundoff * std::fabs(a[axis]) + 1e-36f; // for underflow
-            near_b[axis] = moved - (12 * unit_roundoff * std::fabs(b) + least);
-            far_b[axis] = moved + (60 * unit_roundoff * std::fabs(b) + least);
-        }
-        std::uint32_t hits = 0;
-        for (std::uint32_t half = 0; half < 2; ++half) {
-            const Marks marks(node.meta[half], turn_);
-            std::uint32_t near_word[3], far_word[3];
-            for (int axis = 0; axis < 3; ++axis) {
-                const bool negative = slab_.negative[axis];
-                near_word[axis] = negative ? node.upper[axis][half] : node.lower[axis][half];
-                far_word[axis] = negative ? node.lower[axis][half] : node.upper[axis][half];
-            }
-            for (std::uint32_t i = 0; i < 4; ++i) {
-                float near[3], far[3];
-                for (int axis = 0; axis < 3; ++axis) {
-                    near[axis] =
-                        about_fused(with_byte(near_word[axis], i, one_), a[axis], near_b[axis]);
-                    far[axis] =
-                        about_fused(with_byte(far_word[axis], i, one_), a[axis], far_b[axis]);
-                }
-                hits |= largest(tmin_, near[0], near[1], near[2]) <=
-                                smallest(tmax_, far[0], far[1], far[2])
-                            ? marks.bits(i)
-                            : 0u;
-            }
-        }
-        return hits;
-    }
-
-    [[nodiscard]] RT_HD std::uint32_t careful(const CompressedNode& node) const {
-        std::uint32_t hits = 0;
-        for (std::uint32_t slot = 0; slot < compressed_width; ++slot) {
-            const Marks marks(node.meta[slot / 4], turn_);
-            if (overlaps(slab_interval(slab_, node.bounds(slot)), tmin_, tmax_))
-                hits |= marks.bits(slot % 4);
-        }
-        return hits;
-    }
-
-    SlabRay slab_;
-    float tmin_, tmax_;
-    bool plain_;
-    std::uint32_t one_, turn_;
-};
 
 template <TriangleTest Test>
 RT_HD inline bool intersect(const PreparedRay& ray, const CompressedPrimitive& p, float tmax,
@@ -181,52 +25,68 @@ RT_HD inline bool intersect(const PreparedRay& ray, const CompressedPrimitive& p
 /// all of them, lanes without primitives would wait for the one that has most (tools/warps).
 inline constexpr int primitives_a_turn = 2;
 
-/// Calls visit(hit, primitive) for hits until it returns true, and says whether it did. `best_t`
-/// may shrink meanwhile. The ray must be valid.
-template <TriangleTest Test, class Visit, class Tally>
-RT_HD inline bool visit_hits(const CompressedView& view, const Ray& ray, const float& best_t,
-                             Tally& tally, Visit&& visit) {
-    const PreparedRay prepared(ray);
-    CompressedTest test(prepared, is_plain(ray, view.reach), view.one);
-    NodeGroup stack[compressed_max_depth];
-    int size = 0;
-    NodeGroup group{0, 0x80000000u};             // the root: no slot before it holds a node
-    std::uint32_t first_primitive = 0, left = 0; // of the node before: bits as CompressedTest's
-    // One way back, so that the lanes of a warp meet there: with a `continue` for lanes whose group
-    // is not done those that take from the stack would wait for them to come to their own end.
-    for (bool goes_on = true; goes_on;) {
-        for (int i = 0; i < primitives_a_turn && left != 0; ++i, left &= left - 1) {
-            const std::uint32_t primitive = first_primitive + lowest_one(left);
+/// A ray on its way through the tree, in turns: some primitives of the node before, then a node.
+/// Its stack is apart, since a device can keep all but that in registers.
+template <TriangleTest Test> class CompressedWalk {
+  public:
+    using Stack = NodeGroup[compressed_max_depth];
+
+    /// The ray must be valid.
+    RT_HD CompressedWalk(const CompressedView& view, const Ray& ray)
+        : prepared_(ray), test_(prepared_, is_plain(ray, view.reach), view.one) {}
+
+    /// Calls visit(hit, primitive) for hits; `best_t` may shrink meanwhile. False: nothing is left
+    /// to do, or visit returned true.
+    ///
+    /// No lane of a warp comes back here before the others have done their turn: one that took
+    /// from its stack would otherwise wait for all that go down.
+    template <class Tally, class Visit>
+    RT_HD bool turn(const CompressedView& view, Stack& stack, const float& best_t, Tally& tally,
+                    Visit&& visit) {
+        for (int i = 0; i < primitives_a_turn && left_ != 0; ++i, left_ &= left_ - 1) {
+            const std::uint32_t primitive = first_primitive_ + lowest_one(left_);
             const CompressedPrimitive p = view.primitives[primitive];
             PrimitiveHit hit;
             tally.primitive(primitive);
-            if (intersect<Test>(prepared, p, best_t, hit) && visit(hit, p))
-                return true;
-            test.limit(best_t);
+            if (intersect<Test>(prepared_, p, best_t, hit) && visit(hit, p))
+                return false;
+            test_.limit(best_t);
         }
-        if (left == 0 && (group.bits & NodeGroup::todo) == 0) {
-            goes_on = size > 0;
+        bool goes_on = true;
+        if (left_ == 0 && (group_.bits & NodeGroup::todo) == 0) {
+            goes_on = size_ > 0;
             if (goes_on)
-                group = stack[--size];
+                group_ = stack[--size_];
         }
-        if (left == 0 && goes_on) {
-            const std::uint32_t place = highest_one(group.bits);
-            const std::uint32_t slot = (place - 24) ^ test.turn();
-            const std::uint32_t before = ones(group.bits & 0xffu & ((1u << slot) - 1));
-            group.bits &= ~(1u << place);
-            const std::uint32_t index = group.first + before;
-            const CompressedNode node = view.nodes[index]; // whole: five wide loads
-            if ((group.bits & NodeGroup::todo) != 0)
-                stack[size++] = group;
-            tally.node(index);
-            const std::uint32_t hits = test(node, view.nodes[index]);
-            group = {node.first_child, (hits & NodeGroup::todo) | node.inner_mask()};
-            first_primitive = node.first_primitive;
-            left = hits & ~NodeGroup::todo;
-        }
+        if (left_ == 0 && goes_on)
+            go_down(view, stack, tally);
+        return goes_on;
     }
-    return false;
-}
+
+  private:
+    template <class Tally>
+    RT_HD void go_down(const CompressedView& view, Stack& stack, Tally& tally) {
+        const std::uint32_t place = highest_one(group_.bits);
+        const std::uint32_t slot = (place - 24) ^ test_.turn();
+        const std::uint32_t before = ones(group_.bits & 0xffu & ((1u << slot) - 1));
+        group_.bits &= ~(1u << place);
+        const std::uint32_t index = group_.first + before;
+        const CompressedNode node = view.nodes[index]; // whole: five wide loads
+        if ((group_.bits & NodeGroup::todo) != 0)
+            stack[size_++] = group_;
+        tally.node(index);
+        const std::uint32_t hits = test_(node, view.nodes[index]);
+        group_ = {node.first_child, (hits & NodeGroup::todo) | node.inner_mask()};
+        first_primitive_ = node.first_primitive;
+        left_ = hits & ~NodeGroup::todo;
+    }
+
+    PreparedRay prepared_;
+    CompressedTest test_;
+    int size_ = 0;
+    NodeGroup group_{0, 0x80000000u};              ///< the root: no slot before it holds a node
+    std::uint32_t first_primitive_ = 0, left_ = 0; ///< of the node before: bits as CompressedTest's
+};
 
 } // namespace detail
 
@@ -238,11 +98,14 @@ template <TriangleTest Test, class Tally = NoTally>
     if (!is_valid(ray))
         return best;
     best.t = ray.tmax;
-    detail::visit_hits<Test>(view, ray, best.t, tally,
-                             [&best](const PrimitiveHit& hit, const CompressedPrimitive& p) {
-                                 detail::keep_closer(hit, p.geometry, p.primitive, best);
-                                 return false;
-                             });
+    const auto keep = [&best](const PrimitiveHit& hit, const CompressedPrimitive& p) {
+        detail::keep_closer(hit, p.geometry, p.primitive, best);
+        return false;
+    };
+    typename detail::CompressedWalk<Test>::Stack stack;
+    detail::CompressedWalk<Test> walk(view, ray);
+    while (walk.turn(view, stack, best.t, tally, keep)) {
+    }
     if (!best.valid())
         best.t = infinity;
     return best;
@@ -252,10 +115,17 @@ template <TriangleTest Test, class Tally = NoTally>
 template <TriangleTest Test, class Tally = NoTally>
 [[nodiscard]] RT_HD inline bool occluded(const CompressedView& view, const Ray& ray,
                                          Tally&& tally = {}) {
-    return is_valid(ray) &&
-           detail::visit_hits<Test>(
-               view, ray, ray.tmax, tally,
-               [](const PrimitiveHit&, const CompressedPrimitive&) { return true; });
+    if (!is_valid(ray))
+        return false;
+    bool found = false;
+    const auto stop = [&found](const PrimitiveHit&, const CompressedPrimitive&) {
+        return found = true;
+    };
+    typename detail::CompressedWalk<Test>::Stack stack;
+    detail::CompressedWalk<Test> walk(view, ray);
+    while (walk.turn(view, stack, ray.tmax, tally, stop)) {
+    }
+    return found;
 }
 
 } // namespace plumb

@@ -45,19 +45,18 @@ class OnDevice : public ::testing::TestWithParam<std::filesystem::path> {
         how.force_full_profile = variant.full_profile;
         RenderStats cpu_stats;
         const Image cpu = render(job, needed, *sah, how, cpu_stats).resolve();
-        for (const CudaTree tree : {CudaTree::binary, CudaTree::wide})
-            for (const CudaSchedule schedule :
-                 {CudaSchedule::megakernel, CudaSchedule::wavefront}) {
-                RenderStats gpu_stats;
-                const Image gpu = render_on_cuda(job, needed, trees, variant.triangle_test,
-                                                 {tree, schedule}, how, gpu_stats)
-                                      .resolve();
-                EXPECT_EQ(bits_of(cpu), bits_of(gpu)) << name_of(tree) << name_of(schedule);
-                EXPECT_EQ(cpu.variance, gpu.variance);
-                EXPECT_EQ(cpu_stats.rays.camera, gpu_stats.rays.camera);
-                EXPECT_EQ(cpu_stats.rays.bounce, gpu_stats.rays.bounce);
-                EXPECT_EQ(cpu_stats.rays.shadow, gpu_stats.rays.shadow);
-            }
+        for (const CudaSettings& settings : all_cuda_settings) {
+            RenderStats gpu_stats;
+            const Image gpu =
+                render_on_cuda(job, needed, trees, variant.triangle_test, settings, how, gpu_stats)
+                    .resolve();
+            EXPECT_EQ(bits_of(cpu), bits_of(gpu))
+                << name_of(settings.tree) << name_of(settings.schedule);
+            EXPECT_EQ(cpu.variance, gpu.variance);
+            EXPECT_EQ(cpu_stats.rays.camera, gpu_stats.rays.camera);
+            EXPECT_EQ(cpu_stats.rays.bounce, gpu_stats.rays.bounce);
+            EXPECT_EQ(cpu_stats.rays.shadow, gpu_stats.rays.shadow);
+        }
     }
 };
 

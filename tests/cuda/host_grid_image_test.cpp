@@ -43,12 +43,6 @@ Outcome on_cpu(const Scene& scene, AccelKind kind, RenderOptions how = {},
 /// Blocks and chunks that do not divide 441 pixels.
 constexpr HostGrid small_grid{32, 100, 250, 0};
 
-/// Trees and schedules: all give the same bits.
-constexpr CudaSettings all_settings[] = {{CudaTree::binary, CudaSchedule::megakernel},
-                                         {CudaTree::wide, CudaSchedule::megakernel},
-                                         {CudaTree::binary, CudaSchedule::wavefront},
-                                         {CudaTree::wide, CudaSchedule::wavefront}};
-
 Outcome on_grid(const Scene& scene, const CudaSettings& settings, const RenderOptions& how = {},
                 const HostGrid& grid = small_grid, TriangleTest test = TriangleTest::watertight) {
     const SceneTables tables(scene);
@@ -67,7 +61,7 @@ Outcome on_grid(const Scene& scene, const CudaSettings& settings, const RenderOp
 }
 
 class HostGridImage : public ::testing::TestWithParam<CudaSettings> {};
-INSTANTIATE_TEST_SUITE_P(Every, HostGridImage, ::testing::ValuesIn(all_settings),
+INSTANTIATE_TEST_SUITE_P(Every, HostGridImage, ::testing::ValuesIn(all_cuda_settings),
                          [](const auto& settings) {
                              return std::string(name_of(settings.param.tree)) + "_" +
                                     std::string(name_of(settings.param.schedule));

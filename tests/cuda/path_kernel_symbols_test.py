@@ -12,6 +12,7 @@ import sys
 # What the host side of the file consists of, beside names local to the object.
 ALLOWED = ("plumb::DeviceError", "plumb::detail::check_cuda", "plumb::launch_", "plumb::check_path_kernel",
            "plumb::path_kernel_reports", "plumb::wave_kernel_reports", "plumb::ray_kernel_report",
+           "plumb::persistent_kernel_report",
            "plumb::(anonymous namespace)::", "plumb::KernelReport", "__device_stub__")
 
 

@@ -43,15 +43,14 @@ TEST_P(ScenesOnHostGrid, EveryTreeAndScheduleGivesTheBitsOfTheCpu) {
         RenderStats stats;
         const Image cpu = render(job, needed, *sah, how, stats).resolve();
         EXPECT_EQ(bits_of(cpu), bits_of(render(job, needed, *naive, how, stats).resolve()));
-        for (const CudaTree tree : {CudaTree::binary, CudaTree::wide})
-            for (const CudaSchedule schedule :
-                 {CudaSchedule::megakernel, CudaSchedule::wavefront}) {
-                RenderStats grid_stats;
-                const Image grid = render_on_host_grid(job, needed, trees, TriangleTest::watertight,
-                                                       {tree, schedule}, {}, how, grid_stats)
-                                       .resolve();
-                EXPECT_EQ(bits_of(cpu), bits_of(grid)) << name_of(tree) << name_of(schedule);
-            }
+        for (const CudaSettings& settings : all_cuda_settings) {
+            RenderStats grid_stats;
+            const Image grid = render_on_host_grid(job, needed, trees, TriangleTest::watertight,
+                                                   settings, {}, how, grid_stats)
+                                   .resolve();
+            EXPECT_EQ(bits_of(cpu), bits_of(grid))
+                << name_of(settings.tree) << name_of(settings.schedule);
+        }
     }
 }
 

@@ -15,12 +15,12 @@ class ScriptedDevice {
   public:
     explicit ScriptedDevice(std::vector<std::uint32_t> alive) : alive_(std::move(alive)) {}
 
-    RayCounts run(int max_depth) {
+    RayCounts run(int max_depth, CudaSchedule schedule = CudaSchedule::wavefront) {
         DeviceJob device;
         device.batch = {0, alive_[0], 5, 6};
         device.job.path.max_depth = max_depth;
         const WaveView view{nullptr, nullptr, queues_, queues_ + 1, nullptr, &counters_};
-        return WaveRunner(*this, view, alive_[0]).run(device);
+        return WaveRunner(*this, view, alive_[0], schedule).run(device);
     }
     [[nodiscard]] std::uint32_t alive(std::size_t depth) const {
         return depth <= alive_.size() ? alive_[depth - 1] : 0;
@@ -33,13 +33,19 @@ class ScriptedDevice {
         switch (stage) {
         case WaveStage::generate:
         case WaveStage::accumulate: EXPECT_EQ(job.threads, alive_[0]); break;
+        case WaveStage::extend_persistently:
+            EXPECT_EQ(job.filled().taken, 0u); // of an earlier depth
+            EXPECT_EQ(job.paths(), alive(depth));
+            job.filled().taken = job.paths();
+            break;
         case WaveStage::extend: EXPECT_EQ(job.paths(), alive(depth)); break;
         case WaveStage::shade:
             EXPECT_EQ(job.paths(), alive(depth));
             EXPECT_EQ(job.filled().next + job.filled().shadow, 0u); // of an earlier depth
             EXPECT_EQ(job.wave.now, queues_ + (depth + 1) % 2);
             EXPECT_EQ(job.wave.next, queues_ + depth % 2);
-            job.filled() = {alive(depth + 1), shadows(depth)};
+            job.filled().next = alive(depth + 1);
+            job.filled().shadow = shadows(depth);
             break;
         case WaveStage::shadow: EXPECT_EQ(job.filled().shadow, shadows(depth)); break;
         }
@@ -101,6 +107,19 @@ TEST(WaveRunner, LaunchesNoDepthThatNoPathCanReach) {
         auto found = device.launches;
         found.front().depth = 0;
         EXPECT_EQ(found, expected) << max_depth;
+    }
+}
+
+TEST(WaveRunner, PersistentThreadsTraceAllButCameraRays) {
+    for (const CudaSchedule schedule : {CudaSchedule::wavefront, CudaSchedule::persistent}) {
+        ScriptedDevice device(halving(20));
+        EXPECT_GT(device.run(-1, schedule).bounce, 0u);
+        for (const ScriptedDevice::Launch& launch : device.launches) {
+            const bool persistent = launch.stage == WaveStage::extend_persistently;
+            if (persistent || launch.stage == WaveStage::extend) {
+                EXPECT_EQ(persistent, schedule == CudaSchedule::persistent && launch.depth > 1);
+            }
+        }
     }
 }
 

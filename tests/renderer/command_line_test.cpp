@@ -108,7 +108,8 @@ TEST_F(CommandLine, BadCallsSayWhatIsWrongAndWriteNothing) {
         {"--accel=embree --triangle-test=moeller-trumbore box.xml", 2, "needs --accel=naive"},
         {"--device=cuda --accel=naive box.xml", 2, "needs --accel=sah"},
         {"--cuda-tree=octree box.xml", 2, "(got 'octree', expected binary, wide)"},
-        {"--cuda-schedule=x box.xml", 2, "(got 'x', expected megakernel, wavefront)"},
+        {"--cuda-schedule=x box.xml", 2, "(got 'x', expected megakernel, persistent, wavefront)"},
+        {"--cuda-schedule=persistent --cuda-tree=binary box.xml", 2, "needs --cuda-tree=wide"},
         {"--validate=cuda --device=cuda box.xml", 2, "--validate: needs --device=cpu"},
         {"--validate=cuda --accel=embree box.xml", 2, "not Embree's"},
         {"--validate=cuda --time-limit 1s box.xml", 2, "neither by error nor by time"},
@@ -281,7 +282,7 @@ TEST_F(CommandLine, SignalsEndInTheImageSoFarAndTheirExitCode) {
 
 TEST_F(CommandLine, WithoutADeviceCudaSaysWhyInOneLineAndWritesNothing) {
     for (const char* flags : {"--device=cuda", "--device=cuda --cuda-tree=wide",
-                              "--device=cuda --cuda-schedule=wavefront", "--validate=cuda"}) {
+                              "--device=cuda --cuda-schedule=persistent", "--validate=cuda"}) {
         const Outcome run = renderer(std::string(flags) + " box.xml");
         if (run.exit_code == 0)
             GTEST_SKIP() << "there is a device";

@@ -36,12 +36,12 @@ class GpuCommand(unittest.TestCase):
         path = os.path.join(self.folder.name, "images.json")
         done = run(GPU, "--host", "--images", "--flat", self.flat, "--json", path)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertEqual(done.stdout.count("same bits"), 32)
+        self.assertEqual(done.stdout.count("same bits"), 40)
         with open(path, encoding="utf-8") as file:
             images = json.load(file)["images"]
-        self.assertEqual(len(images), 32)
+        self.assertEqual(len(images), 40)
         self.assertEqual({image["tree"] for image in images}, {"binary", "wide"})
-        self.assertEqual({image["schedule"] for image in images}, {"megakernel", "wavefront"})
+        self.assertEqual({image["schedule"] for image in images}, {"megakernel", "wavefront", "persistent"})
         self.assertEqual({image["profile"] for image in images}, {"box", "full"})
         self.assertEqual({image["profile"] for image in images if image["scene"] == "cornell-box-full"}, {"full"})
         for image in images:
@@ -58,14 +58,14 @@ class GpuCommand(unittest.TestCase):
             file.write(content)
         done = run(GPU, "--host", "--images", "--flat", other)
         self.assertEqual(done.returncode, 1, done.stdout)
-        self.assertEqual(done.stdout.count("BITS"), 4)
-        self.assertIn("4 images and hits are not those of the CPU", done.stderr)
+        self.assertEqual(done.stdout.count("BITS"), 5)
+        self.assertIn("5 images and hits are not those of the CPU", done.stderr)
         content[-25] ^= 1
         content[-1] ^= 1
         with open(os.path.join(other, "cornell-box.flat"), "wb") as file:
             file.write(content)
         done = run(GPU, "--host", "--images", "--flat", other)
-        self.assertEqual(done.stdout.count("RAYS"), 4)
+        self.assertEqual(done.stdout.count("RAYS"), 5)
         self.assertEqual(done.returncode, 1)
 
     def test_what_was_done_before_a_failure_is_kept_and_is_no_skip(self):
@@ -83,7 +83,7 @@ class GpuCommand(unittest.TestCase):
         self.assertNotIn("all bits", done.stdout)
         with open(path, encoding="utf-8") as file:
             found = json.load(file)
-        self.assertEqual(len(found["images"]), 4)
+        self.assertEqual(len(found["images"]), 5)
         self.assertIn("b.flat", found["failure"])
 
     def test_without_nvcc_the_build_says_so(self):
@@ -101,10 +101,13 @@ class GpuCommand(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         with open(path, encoding="utf-8") as file:
             rays = json.load(file)["rays"]
-        self.assertEqual([r["tree"] for r in rays], ["binary", "wide"])
+        self.assertEqual([(r["tree"], r["threads"]) for r in rays],
+                         [("binary", "one a ray"), ("wide", "one a ray"), ("wide", "persistent")])
         for result in rays:
-            self.assertEqual([c["rays"] for c in result["cells"]],
-                             ["primary", "shadow", "diffuse", "later", "random"])
+            kinds = ["primary", "shadow", "diffuse", "later", "random"]
+            if result["threads"] == "persistent":
+                kinds.remove("shadow")  # closest hits only
+            self.assertEqual([c["rays"] for c in result["cells"]], kinds)
             for cell in result["cells"]:
                 self.assertEqual(cell["wrong"], 0)
                 self.assertGreater(cell["median_mrays_per_s"], 0)

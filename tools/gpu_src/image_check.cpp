@@ -12,11 +12,6 @@
 namespace plumb::gpu {
 namespace {
 
-constexpr CudaSettings all_settings[] = {{CudaTree::binary, CudaSchedule::megakernel},
-                                         {CudaTree::wide, CudaSchedule::megakernel},
-                                         {CudaTree::binary, CudaSchedule::wavefront},
-                                         {CudaTree::wide, CudaSchedule::wavefront}};
-
 std::vector<std::filesystem::path> flat_files(const Options& options) {
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::directory_iterator(options.flat))
@@ -90,7 +85,7 @@ void check_images(const Options& options, std::vector<ImageResult>& results) {
         const FlatScene flat = read_flat(file);
         const FlatJob job(flat);
         const Trees trees(job.job().scene.geometry);
-        for (const CudaSettings& settings : all_settings) {
+        for (const CudaSettings& settings : all_cuda_settings) {
             ImageResult result;
             result.scene = flat.name;
             result.settings = settings;

@@ -39,16 +39,16 @@ std::vector<Hit> fetched(const RayTracer& tracer, const bench::RaySet& set) {
 }
 
 RayCell measure(RayTracer& tracer, const bench::RaySet& set, std::span<const Hit> expected,
-                int repetitions) {
+                RayThreads threads, int repetitions) {
     RayCell cell;
     cell.kind = set.kind;
     cell.rays = set.rays.size();
     tracer.load(set.rays);
     std::vector<double> seconds;
     if (repetitions > 1)
-        static_cast<void>(tracer.trace(set.any_hit())); // warms up
+        static_cast<void>(tracer.trace(set.any_hit(), threads)); // warms up
     for (int i = 0; i < repetitions; ++i)
-        seconds.push_back(tracer.trace(set.any_hit()));
+        seconds.push_back(tracer.trace(set.any_hit(), threads));
     cell.wrong = bench::different_bits(fetched(tracer, set), expected);
     std::sort(seconds.begin(), seconds.end());
     cell.mrays_s = 1e-6 * static_cast<double>(cell.rays) / seconds[seconds.size() / 2];
@@ -58,15 +58,16 @@ RayCell measure(RayTracer& tracer, const bench::RaySet& set, std::span<const Hit
     const TraversalCounts counts = tracer.count(counted, set.any_hit());
     cell.nodes = static_cast<double>(counts.nodes) / static_cast<double>(counted.size());
     cell.primitives = static_cast<double>(counts.triangles) / static_cast<double>(counted.size());
-    cell.kernels = tracer.kernels(set.any_hit());
+    cell.kernels = tracer.kernels(set.any_hit(), threads);
     return cell;
 }
 
 void print(const RayResult& r, const RayCell& c) {
-    std::printf("%-12s %8zu triangles %-7s %-8s %8zu rays %10.1f Mrays/s %7.2f nodes %7.2f "
+    std::printf("%-12s %8zu triangles %-7s %-10s %-8s %8zu rays %10.1f Mrays/s %7.2f nodes %7.2f "
                 "triangles %6llu wrong\n",
-                r.mesh.c_str(), r.triangles, name_of(r.tree).data(), bench::name_of(c.kind).data(),
-                c.rays, c.mrays_s, c.nodes, c.primitives, static_cast<unsigned long long>(c.wrong));
+                r.mesh.c_str(), r.triangles, name_of(r.tree).data(), name_of(r.threads).data(),
+                bench::name_of(c.kind).data(), c.rays, c.mrays_s, c.nodes, c.primitives,
+                static_cast<unsigned long long>(c.wrong));
     std::fflush(stdout);
 }
 
@@ -86,17 +87,27 @@ void bench_rays(const Options& options, std::vector<RayResult>& results) {
             expected.push_back(answers(cpu, set));
         for (const CudaTree tree : {CudaTree::binary, CudaTree::wide}) {
             RayTracer tracer(options.side, geometry, tree, TriangleTest::watertight);
-            RayResult result{mesh.name,         mesh.triangles.size(), tree, tracer.stats().build_s,
-                             tracer.upload_s(), tracer.stats().bytes,  {}};
-            for (std::size_t i = 0; i < sets.size(); ++i) {
-                if (sets[i].rays.empty())
+            for (const RayThreads threads : {RayThreads::one_a_ray, RayThreads::persistent}) {
+                const bool persistent = threads == RayThreads::persistent;
+                if (persistent && tree == CudaTree::binary)
                     continue;
-                result.cells.push_back(
-                    measure(tracer, sets[i], expected[i],
-                            options.side == RaySide::device ? options.repetitions : 1));
-                print(result, result.cells.back());
+                RayResult& result = results.emplace_back(RayResult{mesh.name,
+                                                                   mesh.triangles.size(),
+                                                                   tree,
+                                                                   threads,
+                                                                   tracer.stats().build_s,
+                                                                   tracer.upload_s(),
+                                                                   tracer.stats().bytes,
+                                                                   {}});
+                for (std::size_t i = 0; i < sets.size(); ++i) {
+                    if (sets[i].rays.empty() || (persistent && sets[i].any_hit()))
+                        continue;
+                    result.cells.push_back(
+                        measure(tracer, sets[i], expected[i], threads,
+                                options.side == RaySide::device ? options.repetitions : 1));
+                    print(result, result.cells.back());
+                }
             }
-            results.push_back(std::move(result));
         }
     }
 }
@@ -121,6 +132,7 @@ std::string to_json(const RayResult& r) {
         {json_member("mesh", json_text(r.mesh)),
          json_member("triangles", std::to_string(r.triangles)),
          json_member("tree", json_text(name_of(r.tree))),
+         json_member("threads", json_text(name_of(r.threads))),
          json_member("build_ms", json_number(1e3 * r.build_s)),
          json_member("upload_ms", json_number(1e3 * r.upload_s)),
          json_member("bytes_per_triangle",

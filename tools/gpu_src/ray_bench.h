@@ -20,6 +20,7 @@ struct RayResult {
     std::string mesh;
     std::size_t triangles = 0;
     CudaTree tree = CudaTree::binary;
+    RayThreads threads = RayThreads::one_a_ray;
     double build_s = 0, upload_s = 0;
     std::size_t bytes = 0;
     std::vector<RayCell> cells;

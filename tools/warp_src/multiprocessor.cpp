@@ -10,8 +10,11 @@
 namespace plumb::warps {
 
 std::uint32_t Kernel::resident(const Gpu& gpu) const {
-    const std::uint32_t fit = gpu.registers / (registers * Gpu::lanes);
-    return std::min(Gpu::most_warps, fit / Gpu::warps_of_block * Gpu::warps_of_block);
+    constexpr std::uint32_t unit = 256; // CUDA programming guide, occupancy: of a warp's registers
+    const std::uint32_t of_warp = (registers * Gpu::lanes + unit - 1) / unit * unit;
+    // Each of a block's warps goes to another of the four schedulers, which have a quarter each.
+    const std::uint32_t blocks = gpu.registers / Gpu::warps_of_block / of_warp;
+    return std::min(Gpu::most_warps, blocks * Gpu::warps_of_block);
 }
 
 Totals& Totals::operator+=(const Totals& other) {

@@ -21,9 +21,13 @@ enum class Loop : std::uint8_t {
     together     ///< a turn: those at nodes test theirs, then those that were at leaves
 };
 
+/// Registers of a thread, counted as the costs are (gpu.h).
+inline constexpr std::uint32_t closest_registers = 77, any_hit_registers = 69,
+                               persistent_registers = 95, megakernel_registers = 128;
+
 struct Kernel {
     CudaTree tree = CudaTree::binary;
-    std::uint32_t registers = 80; ///< of a thread
+    std::uint32_t registers = closest_registers;
     Loop loop = Loop::nodes_first;
     /// Persistent threads: a warp takes new rays once no more than so many lanes are at work. 0: it
     /// ends when all have ended.

@@ -1,6 +1,7 @@
 /// \file  Which rays a warp gets: blocks in turns over the multiprocessors, and rays sorted before.
 #pragma once
 
+#include "cuda/persistent.h"
 #include "tools/warp_src/multiprocessor.h"
 
 #include <array>
@@ -27,7 +28,7 @@ void for_warps(const Gpu& gpu, std::uint32_t number, std::size_t items, Take&& t
 
 /// The rays of all warps, for persistent threads, which are refilled at so many lanes.
 [[nodiscard]] std::vector<Question> queue_of(std::span<const WarpWork> warps);
-inline constexpr std::uint32_t persistent_refill_at = 20;
+inline constexpr std::uint32_t persistent_refill_at = warp_lanes - refill_from;
 
 /// Sorts by the octant of the direction, then along a Z curve of 10 bits an axis through the box of
 /// the origins.

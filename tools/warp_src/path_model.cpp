@@ -20,9 +20,6 @@ struct RecordingQuery {
     }
 };
 
-/// Registers of a thread: of render_kernel, and the most of extend, shade and shadow.
-constexpr std::uint32_t megakernel_registers = 128, wavefront_registers = 104;
-
 /// What a path and its shadow ray write and read between the stages of one depth: the state twice,
 /// hit and places, the shadow ray and what it brings.
 constexpr double state_bytes = 3 * sizeof(PathState) + 2 * sizeof(Hit) + 4 * sizeof(std::uint32_t);
@@ -62,9 +59,8 @@ class Wavefront {
   public:
     Wavefront(const Gpu& gpu, const Costs& costs, const TreeViews& trees, CudaTree tree,
               PathWay way, std::uint32_t number)
-        : gpu_(gpu), costs_(costs), way_(way), number_(number),
-          kernels_(gpu, costs, trees, {tree, wavefront_registers}),
-          persistent_(gpu, costs, trees, {tree, wavefront_registers, {}, persistent_refill_at}) {}
+        : gpu_(gpu), costs_(costs), way_(way), number_(number), kernels_(gpu, costs, trees, {tree}),
+          persistent_(gpu, costs, trees, {tree, persistent_registers, {}, persistent_refill_at}) {}
 
     [[nodiscard]] Totals run(std::span<const PathRays> paths) {
         double bytes = 0;

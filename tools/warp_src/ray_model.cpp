@@ -16,10 +16,14 @@ RayCell model_cell(const TreeViews& trees, CudaTree tree, bench::RayKind kind,
                    std::span<const Question> rays, RayWay way) {
     const Gpu gpu;
     Kernel kernel{tree};
+    if (!rays.empty() && rays.front().any_hit)
+        kernel.registers = any_hit_registers;
     if (way == RayWay::together)
         kernel.loop = Loop::together;
-    if (way == RayWay::persistent)
+    if (way == RayWay::persistent) {
+        kernel.registers = persistent_registers;
         kernel.refill_at = persistent_refill_at;
+    }
     std::vector<Question> sorted;
     if (way == RayWay::sorted) {
         sorted.assign(rays.begin(), rays.end());
