@@ -16,7 +16,8 @@ namespace plumb {
 /// it begins with "cuda: ".
 [[nodiscard]] bool cuda_available(std::string* why = nullptr);
 
-/// Name of the first device. Throws DeviceError where there is none.
+/// Name of the first device. Throws NoDeviceError where there is none, DeviceError where it cannot
+/// be used.
 [[nodiscard]] std::string cuda_device_name();
 
 /// Renders on the first device. `trees`: the one that the settings name, of the job's geometry;

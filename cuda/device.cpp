@@ -8,7 +8,14 @@ namespace plumb {
 void start_device() {
     int driver = 0;
     if (cudaDriverGetVersion(&driver) == cudaSuccess && driver == 0)
-        throw DeviceError("cuda: there is no NVIDIA driver");
+        throw NoDeviceError("cuda: there is no NVIDIA driver");
+    int devices = 0;
+    const cudaError_t counted = cudaGetDeviceCount(&devices);
+    if (counted == cudaErrorNoDevice || (counted == cudaSuccess && devices == 0)) {
+        cudaGetLastError(); // forgets it
+        throw NoDeviceError("cuda: there is no CUDA-capable GPU");
+    }
+    RT_CUDA_CHECK(counted);
     RT_CUDA_CHECK(cudaSetDevice(0));
     check_path_kernel();
 }

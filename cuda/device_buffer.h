@@ -28,6 +28,8 @@ template <class T> class DeviceBuffer {
 
     /// Sets the first `count` values to zero bits.
     void clear(std::size_t count) { RT_CUDA_CHECK(cudaMemset(data_, 0, count * sizeof(T))); }
+    /// Sets all bytes.
+    void fill(int byte) { RT_CUDA_CHECK(cudaMemset(data_, byte, size_ * sizeof(T))); }
     /// Sets the first from.size() values.
     void copy_from(std::span<const T> from) {
         if (!from.empty())

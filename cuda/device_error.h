@@ -1,4 +1,4 @@
-/// \file  The one exception of the GPU renderer.
+/// \file  The exceptions of the GPU renderer.
 #pragma once
 
 #include <stdexcept>
@@ -10,6 +10,13 @@ namespace plumb {
 class DeviceError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
+};
+
+/// There is no GPU, or no driver for one, or the program was built without CUDA: nothing is wrong
+/// with the machine. Tests skip where they meet this, and only then.
+class NoDeviceError : public DeviceError {
+  public:
+    using DeviceError::DeviceError;
 };
 
 } // namespace plumb

@@ -71,6 +71,7 @@ DeviceRays::~DeviceRays() = default;
 void DeviceRays::load(std::span<const Ray> rays) {
     RT_CUDA_CHECK(cudaSetDevice(0)); // of this thread
     State& s = *state_;
+    s.job.count = 0;                                 // if memory does not suffice
     if (!s.found || s.found->size() < rays.size()) { // the last of the three: all are there
         s.found.reset();
         s.rays.emplace(rays.size());
@@ -88,6 +89,10 @@ double DeviceRays::trace(bool any_hit, RayThreads threads) {
     State& s = *state_;
     if (!s.clock)
         s.clock.emplace();
+    if (s.job.count > 0) { // a ray that is lost must not find the answer of the last trace
+        s.hits->fill(0xff);
+        s.found->fill(0xff);
+    }
     s.taken->clear(1);
     s.clock->begin();
     if (threads == RayThreads::persistent)

@@ -16,25 +16,27 @@ bool cuda_available(std::string* why) {
     return false;
 }
 
-std::string cuda_device_name() { throw DeviceError(built_without); }
+std::string cuda_device_name() { throw NoDeviceError(built_without); }
 
 Film render_on_cuda(const RenderJob& /*job*/, const Features& /*needed*/,
                     const TreeViews& /*trees*/, TriangleTest /*test*/,
                     const CudaSettings& /*settings*/, const RenderOptions& /*options*/,
                     RenderStats& /*stats*/, DeviceReport* /*report*/) {
-    throw DeviceError(built_without);
+    throw NoDeviceError(built_without);
 }
 
 // There is never one.
 struct DeviceRays::State {};
 DeviceRays::DeviceRays(const TreeViews& /*trees*/, CudaTree /*tree*/, TriangleTest /*test*/) {
-    throw DeviceError(built_without);
+    throw NoDeviceError(built_without);
 }
 DeviceRays::~DeviceRays() = default;
 void DeviceRays::load(std::span<const Ray> /*rays*/) {}
-double DeviceRays::trace(bool /*any_hit*/) { return 0; }
+double DeviceRays::trace(bool /*any_hit*/, RayThreads /*threads*/) { return 0; }
 void DeviceRays::fetch(std::span<Hit> /*hits*/) const {}
 void DeviceRays::fetch(std::span<std::uint8_t> /*found*/) const {}
-std::vector<KernelReport> DeviceRays::kernels(bool /*any_hit*/) const { return {}; }
+std::vector<KernelReport> DeviceRays::kernels(bool /*any_hit*/, RayThreads /*threads*/) const {
+    return {};
+}
 
 } // namespace plumb

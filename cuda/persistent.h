@@ -21,7 +21,8 @@ inline constexpr std::uint32_t refill_from = 12;
 ///     void store(std::uint32_t i, const Hit& hit) const;
 template <TriangleTest Test> class PersistentLane {
   public:
-    using Stack = typename detail::CompressedWalk<Test>::Stack;
+    using Walk = detail::CompressedWalk<Test, true>;
+    using Stack = typename Walk::Stack;
 
     [[nodiscard]] RT_HD bool works() const { return works_; }
 
@@ -37,7 +38,7 @@ template <TriangleTest Test> class PersistentLane {
         works_ = is_valid(ray);
         if (works_) {
             hit_.t = ray.tmax;
-            walk_ = detail::CompressedWalk<Test>(view, ray);
+            walk_ = Walk(view, ray);
         }
     }
     /// Once a ray: by the next refill, or at the end.
@@ -59,7 +60,7 @@ template <TriangleTest Test> class PersistentLane {
     }
 
   private:
-    detail::CompressedWalk<Test> walk_{{}, Ray{{}, 0, {1, 1, 1}, 0}}; ///< none yet
+    Walk walk_{{}, Ray{{}, 0, {1, 1, 1}, 0}}; ///< none yet
     Hit hit_;
     std::uint32_t item_ = invalid_id; ///< whose hit is to be stored
     bool works_ = false;

@@ -36,14 +36,17 @@ class HostRays {
 
     void load(std::span<const Ray> rays) {
         rays_.assign(rays.begin(), rays.end());
-        hits_.assign(rays.size(), {});
-        found_.assign(rays.size(), 0);
+        hits_.resize(rays.size());
+        found_.resize(rays.size());
         job_.rays = rays_.data();
         job_.count = rays.size();
         job_.hits = hits_.data();
         job_.found = found_.data();
     }
     double trace(bool any_hit, RayThreads threads) {
+        // A ray that is lost must not find the answer of the last trace.
+        std::ranges::fill(hits_, Hit{-1, 0, 0, 0, 0, 0});
+        std::ranges::fill(found_, std::uint8_t{0xff});
         const auto start = Clock::now();
         if (threads == RayThreads::persistent)
             test_ == TriangleTest::watertight ? persistently<TriangleTest::watertight>()

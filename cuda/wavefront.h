@@ -103,8 +103,9 @@ RT_HD void extend_thread(const WaveJob& job, GridPosition at) {
 /// The same for persistent threads.
 struct ExtendItems {
     const WaveJob& job;
+    std::uint32_t paths = job.paths(); ///< read once
 
-    [[nodiscard]] RT_HD std::uint32_t count() const { return job.paths(); }
+    [[nodiscard]] RT_HD std::uint32_t count() const { return paths; }
     [[nodiscard]] RT_HD Ray ray(std::uint32_t i) const {
         return job.wave.paths[job.wave.now[i]].path.ray;
     }

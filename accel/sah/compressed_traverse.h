@@ -13,11 +13,26 @@
 namespace plumb {
 namespace detail {
 
-template <TriangleTest Test>
+/// x. What is computed of it on a device is computed where that stands.
+RT_HD inline float computed_here(float x) {
+#ifdef __CUDA_ARCH__
+    asm volatile("" : "+f"(x));
+#endif
+    return x;
+}
+
+/// `Resumed`: the ray is one of many that take turns, so that what a compiler takes out of the
+/// branch for spheres, as doubles of the direction, every lane would compute in every turn.
+template <TriangleTest Test, bool Resumed>
 RT_HD inline bool intersect(const PreparedRay& ray, const CompressedPrimitive& p, float tmax,
                             PrimitiveHit& hit) {
-    if (p.is_sphere != 0)
-        return intersect_sphere(ray, Sphere{p.a, p.b.x}, tmax, hit);
+    if (p.is_sphere != 0) {
+        PreparedRay here = ray;
+        if constexpr (Resumed)
+            here.direction = {computed_here(ray.direction.x), computed_here(ray.direction.y),
+                              computed_here(ray.direction.z)};
+        return intersect_sphere(here, Sphere{p.a, p.b.x}, tmax, hit);
+    }
     return intersect_triangle<Test>(ray, p.a, p.b, p.c, tmax, hit);
 }
 
@@ -27,7 +42,7 @@ inline constexpr int primitives_a_turn = 2;
 
 /// A ray on its way through the tree, in turns: some primitives of the node before, then a node.
 /// Its stack is apart, since a device can keep all but that in registers.
-template <TriangleTest Test> class CompressedWalk {
+template <TriangleTest Test, bool Resumed = false> class CompressedWalk {
   public:
     using Stack = NodeGroup[compressed_max_depth];
 
@@ -48,7 +63,7 @@ template <TriangleTest Test> class CompressedWalk {
             const CompressedPrimitive p = view.primitives[primitive];
             PrimitiveHit hit;
             tally.primitive(primitive);
-            if (intersect<Test>(prepared_, p, best_t, hit) && visit(hit, p))
+            if (intersect<Test, Resumed>(prepared_, p, best_t, hit) && visit(hit, p))
                 return false;
             test_.limit(best_t);
         }

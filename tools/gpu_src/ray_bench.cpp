@@ -33,8 +33,8 @@ std::vector<Hit> fetched(const RayTracer& tracer, const bench::RaySet& set) {
     std::vector<std::uint8_t> found(hits.size());
     tracer.fetch(found);
     for (std::size_t i = 0; i < hits.size(); ++i)
-        if (found[i] != 0)
-            hits[i] = {0, 0, 0, 0, 0, invalid_id};
+        if (found[i] != 0) // neither 0 nor 1: was never written, equals no answer
+            hits[i] = {0, 0, 0, found[i] - 1u, 0, invalid_id};
     return hits;
 }
 
