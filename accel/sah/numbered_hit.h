@@ -30,6 +30,10 @@ struct NumberedHit {
         // The last geometry whose first number is not greater: of many the range is halved until
         // eight are left, which are counted without a jump.
         std::uint32_t low = 0, count = tree.geometry_count;
+        if (count <= 2) { // a mesh, and spheres or none: not worth eight
+            const std::uint32_t second = tree.first_of[1] <= number ? 1u : 0u;
+            return {t, u, v, second, number - tree.first_of[second], invalid_id};
+        }
         while (count > 8) {
             const std::uint32_t half = count / 2;
             if (tree.first_of[low + half] <= number) {
