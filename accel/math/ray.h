@@ -28,8 +28,9 @@ inline constexpr float min_direction = std::numeric_limits<float>::min();
 /// component of the direction at least min_direction, 0 <= tmin <= tmax. Any other ray is a miss.
 [[nodiscard]] RT_HD inline bool is_valid(const Ray& ray) {
     // No test waits for another one: nearly all rays pass them all.
-    return is_finite(ray.origin) & is_finite(ray.direction) &
-           (max_component(abs(ray.direction)) >= min_direction) & (ray.tmin >= 0) &
+    const bool finite_origin = is_finite(ray.origin), finite_direction = is_finite(ray.direction);
+    const float largest = max_component(abs(ray.direction));
+    return finite_origin & finite_direction & (largest >= min_direction) & (ray.tmin >= 0) &
            (ray.tmin <= ray.tmax);
 }
 

@@ -75,8 +75,9 @@ RT_HD constexpr float rounding_bound(int n) {
 }
 
 RT_HD inline bool is_finite(Vec3 a) {
-    return (std::fabs(a.x) <= max_coordinate) & (std::fabs(a.y) <= max_coordinate) &
-           (std::fabs(a.z) <= max_coordinate);
+    const bool x = std::fabs(a.x) <= max_coordinate, y = std::fabs(a.y) <= max_coordinate,
+               z = std::fabs(a.z) <= max_coordinate;
+    return x & y & z;
 }
 
 } // namespace plumb
