@@ -206,5 +206,26 @@ TEST(SampleStep, GrowsWhileLaunchesAreShortAndShrinksWhenTheyAreLong) {
     EXPECT_EQ(step.value(), 1u);
 }
 
+TEST(HostWaves, OnlyTheScheduleOfThatNameHasPersistentThreads) {
+    const Scene scene = load_xml(plain_box(), {{"side", "8"}, {"spp", "2"}, {"sampler", "sobol"}});
+    const SceneTables tables(scene);
+    const CompressedTree wide = build_compressed(tables.geometry(), 1);
+    const RenderJob job = make_job(scene, tables.view());
+    const TreeViews trees{{}, wide.view()};
+    HostBlock block(placed_size(job, trees));
+    Arena arena = block.arena();
+    const DeviceJob device = place(job, trees, arena);
+    for (const CudaSchedule schedule : {CudaSchedule::wavefront, CudaSchedule::persistent}) {
+        HostWaves<full_profile, TriangleTest::watertight, CudaTree::wide> waves(device, small_grid,
+                                                                                schedule);
+        waves.clear(64);
+        EXPECT_GT(waves.run({0, 64, 0, 2}).bounce, 0u);
+        std::uint64_t taken = 0;
+        for (const WaveCounters& depth : waves.counters())
+            taken += depth.taken;
+        EXPECT_EQ(taken > 0, schedule == CudaSchedule::persistent);
+    }
+}
+
 } // namespace
 } // namespace plumb::test
